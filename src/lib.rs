@@ -1,0 +1,5 @@
+//! Plans the fewest relocations that free an object on a crowded table, and proves it.
+
+pub mod budget;
+pub mod plan;
+pub mod scene;

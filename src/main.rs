@@ -1,0 +1,3 @@
+//! The `singulate` binary.
+
+fn main() {}

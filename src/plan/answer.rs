@@ -1,0 +1,120 @@
+//! What the planner says: a verdict with its plan, its proof, or the bound that was reached.
+
+use core::time::Duration;
+
+use nalgebra::Point2;
+
+use crate::scene::ObjectIndex;
+
+/// A yaw that is free, with the room round it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grasp {
+    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
+    pub slack: f64,
+}
+
+/// One pick-and-place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relocation {
+    /// What is moved; never the target, never a fixed object.
+    pub object: ObjectIndex,
+    /// Its centre before, m.
+    pub from: Point2<f64>,
+    /// Its centre after, m.
+    pub to: Point2<f64>,
+    /// How it is picked.
+    pub grasp: Grasp,
+    /// How it is let go.
+    pub release: Grasp,
+    /// Least distance to another object at the new place, edge to edge, m.
+    pub gap: f64,
+}
+
+/// The fewest relocations that any plan needs, as far as it is proven.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LowerBound {
+    /// No plan has fewer relocations.
+    pub cost: usize,
+    /// The proof: of each set every plan moves at least one, and no fewer than `cost` objects meet all sets.
+    pub landmarks: Vec<Vec<ObjectIndex>>,
+}
+
+/// Why nothing frees the target.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Deadlock {
+    /// The greatest lock, in index order; fixed objects where they block a member.
+    pub blocked: Vec<ObjectIndex>,
+    /// An inclusion-minimal lock within it, in index order.
+    pub core: Vec<ObjectIndex>,
+}
+
+/// A checked plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// In order of execution; empty where the target is graspable at once.
+    pub relocations: Vec<Relocation>,
+    /// How the target is grasped in the end.
+    pub target_grasp: Grasp,
+    /// The proven bound; the plan is optimal where it has as many relocations.
+    pub bound: LowerBound,
+}
+
+/// What is known where no plan is served.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Unplanned {
+    /// The proven bound.
+    pub bound: LowerBound,
+    /// The objects of the best known derivation, in order; `None` where none is known.
+    pub needed: Option<Vec<ObjectIndex>>,
+}
+
+/// The verdict with all that belongs to it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// The target can be grasped as the table stands.
+    Graspable(Grasp),
+    /// This plan frees the target.
+    Relocate(Plan),
+    /// No sequence of pick-and-place can ever free the target.
+    Deadlock(Deadlock),
+    /// Effort spent or places exhausted without a checked plan; not a proof.
+    NoSpace(Unplanned),
+    /// The time limit came first, with no plan in hand.
+    TimedOut(Unplanned),
+}
+
+/// How long each phase took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Shadows, options, locks.
+    pub knowledge: Duration,
+    /// The least relocation set with its proof.
+    pub search: Duration,
+    /// Places.
+    pub placement: Duration,
+    /// The independent check.
+    pub check: Duration,
+}
+
+/// The planner's answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// What was found.
+    pub verdict: Verdict,
+    /// Not part of the answer's identity: differs from run to run.
+    pub statistics: Statistics,
+}
+
+impl Plan {
+    /// The number of relocations.
+    pub fn cost(&self) -> usize {
+        self.relocations.len()
+    }
+
+    /// True if no plan has fewer relocations.
+    pub fn optimal(&self) -> bool {
+        self.cost() == self.bound.cost
+    }
+}

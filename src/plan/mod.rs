@@ -1,0 +1,12 @@
+//! From a scene to a checked answer.
+
+mod answer;
+pub mod check;
+mod claim;
+mod planner;
+mod settings;
+
+pub use answer::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
+pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
+pub use planner::{PlanError, SurveyEntry, SurveyVerdict, plan, survey};
+pub use settings::{Objective, Settings};

@@ -1,0 +1,57 @@
+//! Couples knowledge, search and placement, and lets nothing leave unchecked.
+
+use crate::budget::Budget;
+use crate::plan::answer::{Answer, Statistics, Unplanned, Verdict};
+use crate::plan::check::Report;
+use crate::plan::settings::Settings;
+use crate::scene::{ObjectIndex, Scene};
+
+/// The planner failed.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The checker refused the planner's own answer: a bug. The answer is not served.
+    #[error("the answer did not pass its check")]
+    Refused(Report),
+}
+
+/// Plan for the scene's target.
+///
+/// # Errors
+/// [`PlanError::Refused`] if the answer fails its check.
+pub fn plan(_scene: &Scene, _settings: &Settings, _budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    Ok(Answer { verdict: Verdict::TimedOut(Unplanned::default()), statistics: Statistics::default() })
+}
+
+/// What the survey says of one object as the target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurveyVerdict {
+    /// Can be grasped as the table stands.
+    Graspable,
+    /// Some set of relocations frees it, if places for them are found.
+    Relocate,
+    /// Nothing frees it.
+    Deadlock,
+    /// Not decided in time.
+    TimedOut,
+}
+
+/// One movable object of the survey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SurveyEntry {
+    /// The object.
+    pub object: ObjectIndex,
+    /// What holds for it as the target.
+    pub verdict: SurveyVerdict,
+    /// The proven bound; `None` for a deadlock.
+    pub lower_bound: Option<usize>,
+    /// True if that many relocations suffice, places apart; `None` for a deadlock.
+    pub optimal: Option<bool>,
+}
+
+/// Every movable object as the target, in index order.
+///
+/// # Errors
+/// [`PlanError::Refused`] if an entry's proof fails its check.
+pub fn survey(_scene: &Scene, _budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
+    Ok(Vec::new())
+}

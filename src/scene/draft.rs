@@ -1,0 +1,66 @@
+//! A scene as somebody describes it, before it is checked.
+
+/// An unchecked scene. `None` means that the part was absent or unreadable, and that whoever read it has said so.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SceneDraft {
+    /// The table.
+    pub table: TableDraft,
+    /// The gripper.
+    pub gripper: GripperDraft,
+    /// The objects, in the caller's order; unreadable ones keep their place.
+    pub objects: Vec<ObjectDraft>,
+    /// The id of the object that is wanted.
+    pub target: Option<String>,
+}
+
+/// An unchecked rectangle, m.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct RectangleDraft {
+    /// Left side.
+    pub x_min: Option<f64>,
+    /// Lower side.
+    pub y_min: Option<f64>,
+    /// Right side.
+    pub x_max: Option<f64>,
+    /// Upper side.
+    pub y_max: Option<f64>,
+}
+
+/// An unchecked table.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TableDraft {
+    /// The table top.
+    pub top: RectangleDraft,
+    /// Where nothing may be placed.
+    pub keep_out: Vec<RectangleDraft>,
+}
+
+/// An unchecked gripper.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct GripperDraft {
+    /// k.
+    pub fingers: Option<f64>,
+    /// w, m.
+    pub finger_width: Option<f64>,
+    /// c, m.
+    pub clearance: Option<f64>,
+    /// m; 0 where the caller names none.
+    pub margin: Option<f64>,
+    /// rad; 0 where the caller names none.
+    pub yaw_tolerance: Option<f64>,
+}
+
+/// An unchecked object.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ObjectDraft {
+    /// The caller's name for it.
+    pub id: Option<String>,
+    /// Centre, m.
+    pub x: Option<f64>,
+    /// Centre, m.
+    pub y: Option<f64>,
+    /// Radius, m.
+    pub radius: Option<f64>,
+    /// True if it can't be moved.
+    pub fixed: bool,
+}

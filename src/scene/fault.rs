@@ -1,0 +1,146 @@
+//! What can be wrong with a scene, as data: the place and the kind.
+
+/// Where in the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The list of objects as a whole.
+    Objects,
+    /// A field of the table top.
+    Table(&'static str),
+    /// A field of the n-th keep-out rectangle.
+    KeepOut(usize, &'static str),
+    /// A field of the gripper.
+    Gripper(&'static str),
+    /// A field of the n-th object.
+    Object(usize, &'static str),
+    /// The n-th object as a whole.
+    WholeObject(usize),
+    /// The target's id.
+    Target,
+}
+
+/// What is wrong there, or (for an overlap within the tolerance and overlapping fingers) worth a warning.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Flaw {
+    /// A number outside its range, bounds included.
+    #[error("{value} is not between {min} and {max}")]
+    OutOfRange {
+        /// The number given.
+        value: f64,
+        /// The least admitted value.
+        min: f64,
+        /// The greatest admitted value.
+        max: f64,
+    },
+    /// A count that is not a whole number.
+    #[error("{0} is not a whole number")]
+    NotWhole(f64),
+    /// A rectangle whose upper bound is not above its lower bound.
+    #[error("the upper bound {max} is not above the lower bound {min}")]
+    EmptyRectangle {
+        /// The lower bound given, m.
+        min: f64,
+        /// The upper bound given, m.
+        max: f64,
+    },
+    /// An id of no or too many characters.
+    #[error("an id has 1 to {max} characters, this one has {length}")]
+    IdLength {
+        /// Characters given.
+        length: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// An id that an earlier object has.
+    #[error("'{id}' is already the id of object {first}")]
+    DuplicateId {
+        /// The id.
+        id: String,
+        /// The position of the earlier object.
+        first: usize,
+    },
+    /// More objects than the limit.
+    #[error("{count} objects are more than the limit of {max}")]
+    TooManyObjects {
+        /// Objects given.
+        count: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// The target is no object's id.
+    #[error("there is no object '{0}'")]
+    UnknownTarget(String),
+    /// The target can't be moved.
+    #[error("the target '{0}' is fixed")]
+    FixedTarget(String),
+    /// The centre is not on the table.
+    #[error("the centre ({x}, {y}) is not on the table")]
+    OffTable {
+        /// Centre, m.
+        x: f64,
+        /// Centre, m.
+        y: f64,
+    },
+    /// Two discs overlap.
+    #[error("overlaps '{other}' by {depth:.6} m (tolerance {tolerance} m)")]
+    Overlap {
+        /// The other object's id.
+        other: String,
+        /// How deep, m.
+        depth: f64,
+        /// What counts as perception noise, m.
+        tolerance: f64,
+    },
+    /// More obstacles within reach of one grasp than the limit.
+    #[error("a grasp of '{id}' has more than {max} obstacles in reach")]
+    TooManyNeighbours {
+        /// The object that is grasped.
+        id: String,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// Neighbouring fingers overlap at the edge of the object.
+    #[error("fingers of width {finger_width} m overlap round '{id}' of radius {radius} m")]
+    FingersOverlap {
+        /// The object that is grasped.
+        id: String,
+        /// w, m.
+        finger_width: f64,
+        /// r, m.
+        radius: f64,
+    },
+}
+
+/// A flaw and its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub flaw: Flaw,
+}
+
+/// A list of findings that stops growing at [`MAX_FINDINGS`]: past that nobody reads on.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    list: Vec<Finding>,
+}
+
+/// The most faults, and the most warnings, that one scene gets.
+pub const MAX_FINDINGS: usize = 1000;
+
+impl Findings {
+    pub(super) fn add(&mut self, place: Place, flaw: Flaw) {
+        if !self.full() {
+            self.list.push(Finding { place, flaw });
+        }
+    }
+
+    pub(super) fn full(&self) -> bool {
+        self.list.len() >= MAX_FINDINGS
+    }
+
+    pub(super) fn into_vec(self) -> Vec<Finding> {
+        self.list
+    }
+}

@@ -1,0 +1,60 @@
+//! The overhead gripper.
+
+use core::f64::consts::TAU;
+
+/// A checked gripper with k fingers, evenly spaced round the object that it grasps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gripper {
+    pub(super) fingers: u32,
+    pub(super) finger_width: f64,
+    pub(super) clearance: f64,
+    pub(super) margin: f64,
+    pub(super) yaw_tolerance: f64,
+}
+
+/// A free interval of yaws counts only when it is at least this wide, rad: far above the rounding of an interval's end,
+/// far below what any arm can resolve.
+pub const MIN_FREE_WIDTH: f64 = 1e-9;
+
+impl Gripper {
+    /// k, from 2 to 12.
+    pub fn fingers(&self) -> u32 {
+        self.fingers
+    }
+
+    /// w, the width of a finger across its radial direction, m.
+    pub fn finger_width(&self) -> f64 {
+        self.finger_width
+    }
+
+    /// c, how far beyond the object's edge an open finger reaches, m (the paper's r_g).
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    /// Extra gap between fingers and obstacles, and between a new place and other objects, m.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// How far the real yaw may be off the planned one, rad.
+    pub fn yaw_tolerance(&self) -> f64 {
+        self.yaw_tolerance
+    }
+
+    /// 2π/k: a turn by this angle gives the same grasp.
+    pub fn period(&self) -> f64 {
+        TAU / f64::from(self.fingers)
+    }
+
+    /// The least width of a free interval that counts, rad.
+    pub fn min_free_width(&self) -> f64 {
+        (2.0 * self.yaw_tolerance).max(MIN_FREE_WIDTH)
+    }
+
+    /// How far from the centre of an object of radius `radius` the outer corners of the open fingers are, m.
+    pub fn corner_distance(&self, radius: f64) -> f64 {
+        let (outer, half) = (radius + self.clearance, self.finger_width / 2.0);
+        (outer * outer + half * half).sqrt()
+    }
+}

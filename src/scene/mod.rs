@@ -1,0 +1,88 @@
+//! The checked scene: table, gripper, objects, target. The one vocabulary that every other room shares.
+//!
+//! A [`SceneDraft`] is what somebody said; a [`Scene`] is what holds: every number in its range, ids unique, centres on the
+//! table, overlaps no deeper than perception noise, a movable target. There is no other way to make one.
+
+mod draft;
+mod fault;
+mod gripper;
+mod index;
+mod object;
+mod table;
+mod validate;
+
+pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+pub use fault::{Finding, Flaw, MAX_FINDINGS, Place};
+pub use gripper::{Gripper, MIN_FREE_WIDTH};
+pub use index::DiscIndex;
+pub use object::{Disc, Object, ObjectIndex, distance};
+pub use table::{Rectangle, Table};
+pub use validate::{
+    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
+};
+
+/// A scene that holds.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    table: Table,
+    gripper: Gripper,
+    objects: Vec<Object>,
+    target: ObjectIndex,
+    index: DiscIndex,
+}
+
+impl Scene {
+    /// Check a draft. On success also what is worth a warning.
+    ///
+    /// # Errors
+    /// Every fault of the draft. The list is empty where the only faults are parts that were absent or unreadable: those
+    /// have been told by whoever read the draft.
+    pub fn new(draft: SceneDraft, limits: &SceneLimits) -> Result<(Self, Vec<Finding>), Vec<Finding>> {
+        validate::validate(draft, limits)
+    }
+
+    /// The table.
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// The gripper.
+    pub fn gripper(&self) -> &Gripper {
+        &self.gripper
+    }
+
+    /// All objects, in the caller's order.
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// One object.
+    pub fn object(&self, index: ObjectIndex) -> &Object {
+        &self.objects[index.get()]
+    }
+
+    /// Every object's index, in order.
+    pub fn indices(&self) -> impl Iterator<Item = ObjectIndex> + use<> {
+        (0..self.objects.len()).map(ObjectIndex::new)
+    }
+
+    /// The object that is wanted; never a fixed one.
+    pub fn target(&self) -> ObjectIndex {
+        self.target
+    }
+
+    /// The same scene with another target. `None` if that one is fixed.
+    pub fn with_target(&self, target: ObjectIndex) -> Option<Self> {
+        (!self.object(target).fixed).then(|| Self { target, ..self.clone() })
+    }
+
+    /// The object with this id.
+    pub fn find(&self, id: &str) -> Option<ObjectIndex> {
+        self.objects.iter().position(|object| object.id == id).map(ObjectIndex::new)
+    }
+
+    /// The objects at their first places, by nearness.
+    pub fn index(&self) -> &DiscIndex {
+        &self.index
+    }
+}

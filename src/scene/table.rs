@@ -1,0 +1,63 @@
+//! The table and the parts of it where nothing may be placed.
+
+use nalgebra::Point2;
+
+use super::object::Disc;
+
+/// An axis-parallel rectangle with positive sides, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rectangle {
+    pub(super) min: Point2<f64>,
+    pub(super) max: Point2<f64>,
+}
+
+impl Rectangle {
+    /// Lower left corner.
+    pub fn min(&self) -> Point2<f64> {
+        self.min
+    }
+
+    /// Upper right corner.
+    pub fn max(&self) -> Point2<f64> {
+        self.max
+    }
+
+    /// True if the point is inside or on the border.
+    pub fn contains(&self, point: Point2<f64>) -> bool {
+        (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
+    }
+
+    /// Least distance from the disc's edge to the border, m; negative where the disc sticks out. The disc's centre is
+    /// taken to be inside.
+    pub fn inner_gap(&self, disc: &Disc) -> f64 {
+        let c = disc.centre;
+        (c.x - self.min.x).min(self.max.x - c.x).min(c.y - self.min.y).min(self.max.y - c.y) - disc.radius
+    }
+
+    /// Distance from the disc's edge to this rectangle, m; negative where they overlap.
+    pub fn outer_gap(&self, disc: &Disc) -> f64 {
+        let c = disc.centre;
+        let x = (self.min.x - c.x).max(c.x - self.max.x).max(0.0);
+        let y = (self.min.y - c.y).max(c.y - self.max.y).max(0.0);
+        (x * x + y * y).sqrt() - disc.radius
+    }
+}
+
+/// The table top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    pub(super) top: Rectangle,
+    pub(super) keep_out: Vec<Rectangle>,
+}
+
+impl Table {
+    /// The whole top.
+    pub fn top(&self) -> Rectangle {
+        self.top
+    }
+
+    /// Rectangles on which nothing may be placed; they don't block fingers.
+    pub fn keep_out(&self) -> &[Rectangle] {
+        &self.keep_out
+    }
+}

@@ -1,0 +1,238 @@
+//! From a draft to a scene, or to the list of all that is wrong with it.
+
+use std::collections::HashMap;
+
+use nalgebra::Point2;
+
+use super::fault::{Finding, Findings, Flaw, Place};
+use super::{
+    Disc, DiscIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Rectangle, RectangleDraft, Scene,
+    SceneDraft, Table, TableDraft,
+};
+
+/// Coordinates, m. At 100 km a double still resolves 1.5e-11 m, well below the checker's 1e-9 m.
+pub const COORDINATE_RANGE: (f64, f64) = (-1e5, 1e5);
+/// Radii, finger width and clearance, m.
+pub const LENGTH_RANGE: (f64, f64) = (1e-6, 1e3);
+/// Margin, m.
+pub const MARGIN_RANGE: (f64, f64) = (0.0, 1e3);
+/// Yaw tolerance, rad.
+pub const YAW_TOLERANCE_RANGE: (f64, f64) = (0.0, core::f64::consts::PI);
+/// k.
+pub const FINGERS_RANGE: (f64, f64) = (2.0, 12.0);
+/// The longest id, in characters: ids stand many times in an answer.
+pub const MAX_ID_LENGTH: usize = 128;
+
+/// What a scene may hold at the most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneLimits {
+    /// Objects.
+    pub max_objects: usize,
+    /// Obstacles within reach of one grasp.
+    pub max_neighbours: usize,
+    /// How deep two discs may overlap and still pass as perception noise, m.
+    pub overlap_tolerance: f64,
+}
+
+impl Default for SceneLimits {
+    fn default() -> Self {
+        Self { max_objects: 10_000, max_neighbours: 256, overlap_tolerance: 1e-3 }
+    }
+}
+
+pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene, Vec<Finding>), Vec<Finding>> {
+    let mut faults = Findings::default();
+    let mut warnings = Findings::default();
+    if draft.objects.len() > limits.max_objects {
+        let flaw = Flaw::TooManyObjects { count: draft.objects.len(), max: limits.max_objects };
+        return Err(vec![Finding { place: Place::Objects, flaw }]);
+    }
+    let table = table(&draft.table, &mut faults);
+    let gripper = gripper(&draft.gripper, &mut faults);
+    let ids = unique_ids(&draft.objects, &mut faults);
+    let objects: Vec<Option<Object>> = draft
+        .objects
+        .iter()
+        .enumerate()
+        .map(|(at, object)| self::object(at, object, table.as_ref(), &mut faults))
+        .collect();
+    let target = draft.target.as_ref().and_then(|id| target(id, &ids, &draft.objects, &mut faults));
+    // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
+    let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
+    let index = DiscIndex::new(objects.iter().map(Object::disc).collect());
+    overlaps(&objects, &index, limits, &mut faults, &mut warnings);
+    if let Some(gripper) = &gripper {
+        reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
+    }
+    let faults = faults.into_vec();
+    match (table, gripper, target) {
+        (Some(table), Some(gripper), Some(target)) if faults.is_empty() => {
+            Ok((Scene { table, gripper, objects, target, index }, warnings.into_vec()))
+        }
+        _ => Err(faults),
+    }
+}
+
+/// The value if it is there and in its range.
+fn ranged(value: Option<f64>, (min, max): (f64, f64), place: Place, faults: &mut Findings) -> Option<f64> {
+    let value = value?;
+    if (min..=max).contains(&value) {
+        return Some(value);
+    }
+    faults.add(place, Flaw::OutOfRange { value, min, max });
+    None
+}
+
+fn rectangle(
+    draft: &RectangleDraft,
+    place: impl Fn(&'static str) -> Place,
+    faults: &mut Findings,
+) -> Option<Rectangle> {
+    let mut side = |value, name| ranged(value, COORDINATE_RANGE, place(name), faults);
+    let (x_min, x_max) = (side(draft.x_min, "x_min"), side(draft.x_max, "x_max"));
+    let (y_min, y_max) = (side(draft.y_min, "y_min"), side(draft.y_max, "y_max"));
+    let mut ordered = |min: Option<f64>, max: Option<f64>, name| {
+        let (min, max) = (min?, max?);
+        if min < max {
+            return Some((min, max));
+        }
+        faults.add(place(name), Flaw::EmptyRectangle { min, max });
+        None
+    };
+    let (x, y) = (ordered(x_min, x_max, "x_max"), ordered(y_min, y_max, "y_max"));
+    let ((x_min, x_max), (y_min, y_max)) = (x?, y?);
+    Some(Rectangle { min: Point2::new(x_min, y_min), max: Point2::new(x_max, y_max) })
+}
+
+fn table(draft: &TableDraft, faults: &mut Findings) -> Option<Table> {
+    let top = rectangle(&draft.top, Place::Table, faults);
+    let keep_out: Vec<Option<Rectangle>> = draft
+        .keep_out
+        .iter()
+        .enumerate()
+        .map(|(at, draft)| rectangle(draft, |name| Place::KeepOut(at, name), faults))
+        .collect();
+    Some(Table { top: top?, keep_out: keep_out.into_iter().collect::<Option<_>>()? })
+}
+
+fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
+    let mut field = |value, range, name| ranged(value, range, Place::Gripper(name), faults);
+    let fingers = field(draft.fingers, FINGERS_RANGE, "fingers");
+    let finger_width = field(draft.finger_width, LENGTH_RANGE, "finger_width");
+    let clearance = field(draft.clearance, LENGTH_RANGE, "clearance");
+    let margin = field(draft.margin, MARGIN_RANGE, "margin");
+    let yaw_tolerance = field(draft.yaw_tolerance, YAW_TOLERANCE_RANGE, "yaw_tolerance");
+    let fingers = fingers.and_then(|value| {
+        if value.fract() == 0.0 {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 12")]
+            return Some(value as u32);
+        }
+        faults.add(Place::Gripper("fingers"), Flaw::NotWhole(value));
+        None
+    });
+    Some(Gripper {
+        fingers: fingers?,
+        finger_width: finger_width?,
+        clearance: clearance?,
+        margin: margin?,
+        yaw_tolerance: yaw_tolerance?,
+    })
+}
+
+/// The first position of every id that could be read.
+fn unique_ids<'a>(objects: &'a [ObjectDraft], faults: &mut Findings) -> HashMap<&'a str, usize> {
+    let mut ids = HashMap::with_capacity(objects.len());
+    for (at, id) in objects.iter().enumerate().filter_map(|(at, object)| Some((at, object.id.as_deref()?))) {
+        let length = id.chars().count();
+        if length == 0 || length > MAX_ID_LENGTH {
+            faults.add(Place::Object(at, "id"), Flaw::IdLength { length, max: MAX_ID_LENGTH });
+        } else if let Some(&first) = ids.get(id) {
+            faults.add(Place::Object(at, "id"), Flaw::DuplicateId { id: id.to_owned(), first });
+        } else {
+            ids.insert(id, at);
+        }
+    }
+    ids
+}
+
+fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Findings) -> Option<Object> {
+    let mut field = |value, range, name| ranged(value, range, Place::Object(at, name), faults);
+    let x = field(draft.x, COORDINATE_RANGE, "x");
+    let y = field(draft.y, COORDINATE_RANGE, "y");
+    let radius = field(draft.radius, LENGTH_RANGE, "radius");
+    let centre = Point2::new(x?, y?);
+    if table.is_some_and(|table| !table.top.contains(centre)) {
+        faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y });
+    }
+    Some(Object { id: draft.id.clone()?, disc: Disc { centre, radius: radius? }, fixed: draft.fixed })
+}
+
+fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults: &mut Findings) -> Option<ObjectIndex> {
+    // An object whose id could not be read may be the one that is meant.
+    let unreadable = objects.iter().any(|object| object.id.is_none());
+    match ids.get(id) {
+        Some(&at) if objects[at].fixed => faults.add(Place::Target, Flaw::FixedTarget(id.to_owned())),
+        Some(&at) => return Some(ObjectIndex::new(at)),
+        None if !unreadable => faults.add(Place::Target, Flaw::UnknownTarget(id.to_owned())),
+        None => {}
+    }
+    None
+}
+
+/// Every overlapping pair once: a fault past the tolerance, a warning up to it. A disc that overlaps more others than a
+/// grasp may have neighbours is refused for that, which bounds the work.
+fn overlaps(
+    objects: &[Object],
+    index: &DiscIndex,
+    limits: &SceneLimits,
+    faults: &mut Findings,
+    warnings: &mut Findings,
+) {
+    let (tolerance, max) = (limits.overlap_tolerance, limits.max_neighbours);
+    for (at, object) in objects.iter().enumerate() {
+        let disc = object.disc;
+        let mut touched: Vec<ObjectIndex> = index.within(disc.centre, disc.radius).take(max + 2).collect();
+        if touched.len() > max + 1 {
+            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: object.id.clone(), max });
+        }
+        touched.retain(|other| other.get() < at);
+        touched.sort_unstable();
+        for other in touched {
+            let other = &objects[other.get()];
+            let depth = -disc.gap(&other.disc);
+            let list = if depth > tolerance { &mut *faults } else { &mut *warnings };
+            list.add(Place::WholeObject(at), Flaw::Overlap { other: other.id.clone(), depth, tolerance });
+        }
+        if faults.full() {
+            return;
+        }
+    }
+}
+
+/// Grasps with too many obstacles in reach, and fingers that overlap each other.
+fn reach(
+    gripper: &Gripper,
+    objects: &[Object],
+    index: &DiscIndex,
+    limits: &SceneLimits,
+    faults: &mut Findings,
+    warnings: &mut Findings,
+) {
+    let half_angle_tangent = libm::tan(gripper.period() / 2.0);
+    for (at, object) in objects.iter().enumerate().filter(|(_, object)| !object.fixed) {
+        let Disc { centre, radius } = object.disc;
+        let id = || object.id.clone();
+        let reach = gripper.corner_distance(radius) + gripper.margin;
+        // The index finds the object itself too.
+        if index.within(centre, reach).take(limits.max_neighbours + 2).count() > limits.max_neighbours + 1 {
+            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
+        }
+        if gripper.finger_width / 2.0 > radius * half_angle_tangent {
+            let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
+            warnings.add(Place::WholeObject(at), flaw);
+        }
+        if faults.full() {
+            return;
+        }
+    }
+}
