@@ -1,5 +1,8 @@
 //! Plans the fewest relocations that free an object on a crowded table, and proves it.
 
 pub mod budget;
+pub mod geometry;
+pub mod knowledge;
 pub mod plan;
 pub mod scene;
+pub mod search;

@@ -4,16 +4,8 @@ use core::time::Duration;
 
 use nalgebra::Point2;
 
+use crate::geometry::Grasp;
 use crate::scene::ObjectIndex;
-
-/// A yaw that is free, with the room round it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grasp {
-    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
-    pub yaw: f64,
-    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
-    pub slack: f64,
-}
 
 /// One pick-and-place.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,8 @@ mod claim;
 mod planner;
 mod settings;
 
-pub use answer::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
+pub use crate::geometry::Grasp;
+pub use answer::{Answer, Deadlock, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
 pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 pub use planner::{PlanError, SurveyEntry, SurveyVerdict, plan, survey};
 pub use settings::{Objective, Settings};

@@ -1,0 +1,3 @@
+//! Whole answers: golden scenes and bases, generated scenes, the checker.
+
+mod bases;
