@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod geometry;
 pub mod knowledge;
+pub mod placement;
 pub mod plan;
 pub mod scene;
 pub mod search;

@@ -2,27 +2,9 @@
 
 use core::time::Duration;
 
-use nalgebra::Point2;
-
 use crate::geometry::Grasp;
+use crate::placement::Relocation;
 use crate::scene::ObjectIndex;
-
-/// One pick-and-place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Relocation {
-    /// What is moved; never the target, never a fixed object.
-    pub object: ObjectIndex,
-    /// Its centre before, m.
-    pub from: Point2<f64>,
-    /// Its centre after, m.
-    pub to: Point2<f64>,
-    /// How it is picked.
-    pub grasp: Grasp,
-    /// How it is let go.
-    pub release: Grasp,
-    /// Least distance to another object at the new place, edge to edge, m.
-    pub gap: f64,
-}
 
 /// The fewest relocations that any plan needs, as far as it is proven.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

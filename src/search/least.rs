@@ -2,7 +2,7 @@
 
 use super::chain::Chain;
 use super::problem::{Node, Problem};
-use super::{hitting_set, incumbent, landmark};
+use super::{hitting_set, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
@@ -166,6 +166,7 @@ impl<'p> Search<'p> {
         let mut landmarks: Vec<Vec<ObjectIndex>> = self.landmarks.iter().map(|landmark| objects(landmark)).collect();
         landmarks.iter_mut().for_each(|landmark| landmark.sort_unstable());
         landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
+        let landmarks = proof::concise(landmarks, self.bound);
         LeastSet { derivation: Derivation { order: objects(&self.best) }, bound: self.bound, landmarks }
     }
 }

@@ -5,13 +5,16 @@
 //! optimal. Otherwise grow H to a maximal set from which the target still does not follow: its complement is a new
 //! landmark. The landmarks are the proof of optimality.
 
+mod alternatives;
 mod chain;
 mod hitting_set;
 mod incumbent;
 mod landmark;
 mod least;
 mod problem;
+mod proof;
 #[cfg(test)]
 mod tests;
 
+pub use alternatives::Alternatives;
 pub use least::{Derivation, LeastSet, Outcome, Restriction, least};
