@@ -25,12 +25,15 @@ pub fn free_yaws<'a>(
     ArcSet::union(gripper.period(), &shadows)
 }
 
+/// An interval's width is a difference of sums of angles; what knowledge counts as wide enough must be so here, rad.
+const ROUNDING: f64 = 1e-12;
+
 /// The middle of the widest free interval, if that one is wide enough to count ([`Gripper::min_free_width`]).
 pub fn widest_grasp(gripper: &Gripper, blocked: &ArcSet) -> Option<Grasp> {
     let widest = blocked.widest_free()?;
     if blocked.is_empty() {
         return Some(Grasp { yaw: 0.0, slack: widest.width / 2.0 });
     }
-    (widest.width >= gripper.min_free_width())
+    (widest.width >= gripper.min_free_width() - ROUNDING)
         .then(|| Grasp { yaw: wrap(widest.start + widest.width / 2.0, gripper.period()), slack: widest.width / 2.0 })
 }

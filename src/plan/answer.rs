@@ -92,3 +92,14 @@ impl Plan {
         self.cost() == self.bound.cost
     }
 }
+
+impl Verdict {
+    /// The bound, where the verdict has one to prove.
+    pub(super) fn bound_mut(&mut self) -> Option<&mut LowerBound> {
+        match self {
+            Self::Relocate(plan) => Some(&mut plan.bound),
+            Self::NoSpace(rest) | Self::TimedOut(rest) => Some(&mut rest.bound),
+            Self::Graspable(_) | Self::Deadlock(_) => None,
+        }
+    }
+}

@@ -15,7 +15,8 @@ impl From<Grasp> for ClaimedGrasp {
 impl Claim {
     /// What an answer says, in the words in which it is served.
     pub fn of(scene: &Scene, answer: &Answer) -> Self {
-        let ids = |objects: &[ObjectIndex]| objects.iter().map(|&o| scene.object(o).id().to_owned()).collect::<Vec<_>>();
+        let ids =
+            |objects: &[ObjectIndex]| objects.iter().map(|&o| scene.object(o).id().to_owned()).collect::<Vec<_>>();
         let bounded = |bound: &LowerBound| Self {
             lower_bound: Some(bound.cost as u64),
             landmarks: Some(bound.landmarks.iter().map(|landmark| ids(landmark)).collect()),
