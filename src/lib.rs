@@ -3,3 +3,4 @@
 pub mod budget;
 pub mod plan;
 pub mod scene;
+pub mod wire;
