@@ -361,7 +361,7 @@ fn a_faulty_plan_is_told_at_its_place() {
     refuses_plan("/colour", json!(1), "unknown_field");
     refuses_plan("/relocations/0/action", json!("push"), "unknown_value");
     refuses_plan("/relocations/0/to/x", json!(1e6), "out_of_range");
-    refuses_plan("/relocations/0/grasp", json!({}), "missing");
+    refuses_plan("/relocations/0/grasp", json!(1), "wrong_type");
 }
 
 #[test]
