@@ -17,6 +17,12 @@ pub struct VerifyRequest {
     pub claim: Claim,
 }
 
+impl AsRef<PlanRequest> for VerifyRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        &self.request
+    }
+}
+
 const VERIFY: Names = Names::of(&["scene", "plan"]);
 const PLAN: Names = Names::of(&[
     "verdict",
