@@ -2,4 +2,5 @@
 
 pub mod budget;
 pub mod plan;
+pub mod render;
 pub mod scene;
