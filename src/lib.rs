@@ -1,6 +1,7 @@
 //! Plans the fewest relocations that free an object on a crowded table, and proves it.
 
 pub mod budget;
+pub mod experiments;
 pub mod plan;
 pub mod render;
 pub mod scene;
