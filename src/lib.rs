@@ -5,3 +5,4 @@ pub mod experiments;
 pub mod plan;
 pub mod render;
 pub mod scene;
+pub mod wire;
