@@ -201,8 +201,10 @@ impl Arranger<'_, '_> {
         let disc = self.layout.disc(object);
         let mut taken: Vec<Point2<f64>> = Vec::new();
         self.layout.lift(object, true);
-        for preferred in [PREFERRED_GAP, 0.0] {
-            let mut candidates = Candidates::new(&self.layout, self.wish(object, preferred));
+        for (preferred, spread) in [(PREFERRED_GAP, false), (0.0, false), (0.0, true)] {
+            let wish = self.wish(object, preferred);
+            let mut candidates =
+                if spread { Candidates::spread(&self.layout, wish) } else { Candidates::new(&self.layout, wish) };
             while let Some(at) = candidates.next(&self.layout) {
                 // A place next to one that led nowhere leads nowhere either.
                 if taken.iter().any(|&other| distance(other, at) < disc.radius) {

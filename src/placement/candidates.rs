@@ -78,13 +78,20 @@ impl PartialOrd for Entry {
 impl Candidates {
     /// Places for an object that is lifted off `layout`.
     pub(super) fn new(layout: &Layout<'_>, wish: Wish) -> Self {
+        let mut candidates = Self::empty(layout, wish);
+        candidates.add_straight_borders(layout);
+        candidates.add_obstacles(layout);
+        candidates
+    }
+
+    fn empty(layout: &Layout<'_>, wish: Wish) -> Self {
         let scene = layout.scene();
         let own = layout.disc(wish.object);
         let origin = match wish.objective {
             Objective::FarFromTarget => scene.object(scene.target()).disc().centre,
             Objective::ShortMoves => own.centre,
         };
-        let mut candidates = Self {
+        Self {
             wish,
             radius: own.radius,
             origin,
@@ -93,9 +100,21 @@ impl Candidates {
             span: 0.0,
             expanded: vec![false; scene.objects().len()],
             heap: BinaryHeap::new(),
-        };
-        candidates.add_straight_borders(layout);
-        candidates.add_obstacles(layout);
+        }
+    }
+
+    /// Places spread evenly over the table, for where no border curve's points will do: a release between obstacles may be
+    /// possible only well inside a free region.
+    pub(super) fn spread(layout: &Layout<'_>, wish: Wish) -> Self {
+        let mut candidates = Self::empty(layout, wish);
+        let top = layout.scene().table().top();
+        let keep = candidates.radius + wish.edge_gap + INSIDE;
+        let (min, size) = (top.min(), top.max() - top.min());
+        for n in 1..=SPREAD {
+            let (x, y) = (radical_inverse(n, 2), radical_inverse(n, 3));
+            let inner = |share: f64, size: f64| keep + share * (size - 2.0 * keep);
+            candidates.add_place(Point2::new(min.x + inner(x, size.x), min.y + inner(y, size.y)));
+        }
         candidates
     }
 
@@ -223,4 +242,18 @@ impl Candidates {
         }
         circle.extremes(self.origin).into_iter().for_each(|at| self.add_place(at));
     }
+}
+
+/// How many places are spread over the table.
+const SPREAD: u32 = 1024;
+
+/// The digits of `n` mirrored at the point: Halton's sequence, evenly spread at any length.
+fn radical_inverse(mut n: u32, base: u32) -> f64 {
+    let (mut result, mut digit) = (0.0, 1.0 / f64::from(base));
+    while n > 0 {
+        result += f64::from(n % base) * digit;
+        n /= base;
+        digit /= f64::from(base);
+    }
+    result
 }

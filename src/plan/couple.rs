@@ -7,9 +7,9 @@ use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Alternatives, Derivation};
 
 /// The places that may be tried for one answer: a fraction of a second, reached only where space is very short.
-const MAX_PLACES: u32 = 40_000;
+const MAX_PLACES: u32 = 400_000;
 /// The places that may be tried for one set, so that others get their turn.
-const MAX_PLACES_PER_SET: u32 = 6_000;
+const MAX_PLACES_PER_SET: u32 = 50_000;
 /// How many more relocations than the least set has are tried.
 const MAX_EXTRA: usize = 3;
 /// How many sets are tried.
