@@ -1,0 +1,3 @@
+//! From scenes to checked answers.
+
+mod check;
