@@ -23,11 +23,15 @@ fn mutant(mutate: impl FnOnce(&mut Claim), expected: &[FaultCode]) {
     assert_eq!(codes(&report), expected, "{:#?}", report.faults);
 }
 
+fn steps(claim: &mut Claim) -> &mut Vec<ClaimedRelocation> {
+    claim.relocations.as_mut().expect("a plan with steps")
+}
+
 #[track_caller]
 fn mutant_step(at: usize, mutate: impl FnOnce(&mut ClaimedRelocation), expected: &[FaultCode]) {
     mutant(
         |claim| {
-            let step = &mut claim.relocations.as_mut().unwrap()[at];
+            let step = &mut steps(claim)[at];
             step.gap = None;
             mutate(step);
         },
@@ -39,9 +43,8 @@ fn mutant_step(at: usize, mutate: impl FnOnce(&mut ClaimedRelocation), expected:
 fn two_dependent_steps_swapped_are_seen() {
     mutant(
         |claim| {
-            let steps = claim.relocations.as_mut().unwrap();
-            steps.swap(0, 1);
-            steps.iter_mut().for_each(|step| step.gap = None);
+            steps(claim).swap(0, 1);
+            steps(claim).iter_mut().for_each(|step| step.gap = None);
         },
         &[GraspBlocked],
     );
@@ -51,7 +54,7 @@ fn two_dependent_steps_swapped_are_seen() {
 fn a_needed_step_left_out_is_seen() {
     mutant(
         |claim| {
-            claim.relocations.as_mut().unwrap().pop();
+            steps(claim).pop();
             (claim.cost, claim.lower_bound, claim.optimal, claim.landmarks) = (None, None, None, None);
         },
         &[TargetBlocked],
@@ -99,7 +102,7 @@ fn a_moved_fixed_object_is_seen() {
     let forbidden = |object: &str| {
         let step = step(object, [0.3, 0.3], 0.0, 0.0);
         move |claim: &mut Claim| {
-            claim.relocations.as_mut().unwrap().push(step);
+            steps(claim).push(step);
             (claim.cost, claim.lower_bound, claim.optimal) = (Some(4), Some(3), Some(false));
         }
     };
@@ -143,7 +146,7 @@ fn a_bound_one_too_high_is_seen() {
 }
 
 fn with_a_needless_move(claim: &mut Claim) {
-    claim.relocations.as_mut().unwrap().push(step("far", [0.3, 0.3], 1.5, 0.0));
+    steps(claim).push(step("far", [0.3, 0.3], 1.5, 0.0));
     claim.cost = Some(4);
 }
 
@@ -189,7 +192,7 @@ fn numbers_that_no_table_holds_are_seen() {
     for wild in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
         mutant(
             |claim| {
-                claim.relocations.as_mut().unwrap().push(step("far", [wild, 0.3], 1.5, 0.0));
+                steps(claim).push(step("far", [wild, 0.3], 1.5, 0.0));
                 (claim.cost, claim.optimal) = (Some(4), Some(false));
             },
             &[NumberOutOfRange],
@@ -205,8 +208,8 @@ fn numbers_that_no_table_holds_are_seen() {
 #[test]
 fn a_fault_names_its_step_and_its_object() {
     let mut claim = gate_plan();
-    claim.relocations.as_mut().unwrap()[1].to.x += 1e-3;
-    claim.relocations.as_mut().unwrap()[1].gap = None;
+    steps(&mut claim)[1].to.x += 1e-3;
+    steps(&mut claim)[1].gap = None;
     let report = judge(&gate_with_posts(), &claim);
     let fault = &report.faults[0];
     assert_eq!((fault.code.name(), fault.step, fault.object.as_deref()), ("too_close", Some(1), Some("west")));

@@ -36,7 +36,7 @@ fn honeycomb(columns: u32, rows: u32) -> Scene {
         let id = format!("d{n}");
         builder = builder.disc(&id, x, 0.1 * 0.75_f64.sqrt() * f64::from(row), 0.05);
     }
-    let rim = |n: u32| n % columns == 0 || n % columns == columns - 1 || n / columns == 0 || n / columns == rows - 1;
+    let rim = |n: u32| [0, columns - 1].contains(&(n % columns)) || [0, rows - 1].contains(&(n / columns));
     for n in (0..columns * rows).filter(|n| rim(*n)) {
         builder = builder.fix(&format!("d{n}"));
     }
