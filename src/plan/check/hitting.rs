@@ -138,6 +138,23 @@ mod tests {
             let family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
             prop_assert!(family.packing() <= exact && family.shares() <= exact);
         }
+
+        /// Two tangles and a few links: a choice among the links leaves parts that are searched apart.
+        #[test]
+        fn linked_parts_are_searched_right(
+            left in proptest::collection::vec((0_usize..7, 1_usize..7), 4..14),
+            right in proptest::collection::vec((0_usize..7, 1_usize..7), 4..14),
+            links in proptest::collection::vec((0_usize..7, 7_usize..14), 1..4),
+        ) {
+            let edge = |from: usize, (a, turn): (usize, usize)| {
+                let b = (a + turn) % 7;
+                vec![from + a.min(b), from + a.max(b)]
+            };
+            let mut sets: Vec<Vec<usize>> = left.into_iter().map(|pair| edge(0, pair)).collect();
+            sets.extend(right.into_iter().map(|pair| edge(7, pair)));
+            sets.extend(links.into_iter().map(|(a, b)| vec![a, b]));
+            prop_assert_eq!(solve(&sets, 14), Hits { at_least: enumerate(&sets, 14), exact: true });
+        }
     }
 
     /// The 15 edges of Petersen's graph, so many times over: nothing here is decided by reduction alone.

@@ -160,6 +160,25 @@ mod tests {
         })
     }
 
+    #[test]
+    fn an_obstacle_that_only_just_touches_blocks_or_not_as_the_question_leans() {
+        let finger = Finger { inner: 0.05, outer: 0.1, half: 0.01 };
+        for (off, leaning, blocks) in [
+            (1e-15, Leaning::Blocked, true),
+            (-1e-15, Leaning::Free, false),
+            (1e-10, Leaning::Blocked, false),
+            (-1e-10, Leaning::Free, true),
+        ] {
+            let x = 0.5 + (finger.corner_distance() + 0.08) * (1.0 + off);
+            let scene = TestScene::new(3).disc("t", 0.5, 0.5, 0.05).disc("o", x, 0.5, 0.08).build("t");
+            let names = Names::new(&scene);
+            let places = Places::new(&scene, &[], &names);
+            let mut rings = Rings::new(&scene, &places, leaning);
+            let ring = rings.ring(scene.target(), &mut Meter::new(&Budget::unlimited())).unwrap();
+            assert_eq!(ring.len() > 0, blocks, "{off:e} {leaning:?}");
+        }
+    }
+
     proptest! {
         #[test]
         fn a_free_interval_is_found_where_a_band_of_its_width_is_free(

@@ -170,6 +170,8 @@ fn a_needless_move_in_an_optimal_plan_is_seen() {
 fn an_optimal_plan_said_not_to_be_is_seen() {
     mutant(|claim| claim.optimal = Some(false), &[WrongOptimal]);
     mutant(|claim| (claim.optimal, claim.lower_bound) = (Some(false), Some(2)), &[WrongOptimal]);
+    let contradicts = |claim: &mut Claim| (claim.optimal, claim.landmarks) = (Some(false), None);
+    mutant(contradicts, &[BoundUnproven, WrongOptimal]);
 }
 
 #[test]

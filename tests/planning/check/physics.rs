@@ -135,6 +135,18 @@ fn an_object_may_move_twice_and_starts_where_it_was_put() {
 }
 
 #[test]
+fn what_was_put_down_is_in_the_way_and_what_was_lifted_is_not() {
+    let scene = near_pair();
+    // Beside the target, where only a finger along x reaches it.
+    let beside = [1.62, 1.5];
+    expect(&scene, &moves(&[("a", beside)]), &[TargetBlocked]);
+    expect(&scene, &moves(&[("a", beside), ("a", [0.2, 0.2])]), &[]);
+    expect(&scene, &moves(&[("a", [0.5, 1.0]), ("e", [0.5, 1.05])]), &[TooClose, ReleaseBlocked]);
+    // One after the other on the same place.
+    expect(&scene, &moves(&[("a", [0.5, 1.0]), ("a", [0.2, 0.2]), ("e", [0.5, 1.0])]), &[]);
+}
+
+#[test]
 fn only_what_is_stated_is_checked() {
     let mut claim = Claim { relocations: gate_plan().relocations, ..Claim::default() };
     claim.target_grasp = gate_plan().target_grasp;

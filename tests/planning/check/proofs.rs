@@ -29,6 +29,15 @@ fn a_landmark_may_offer_a_choice() {
 }
 
 #[test]
+fn a_landmark_is_judged_by_the_table_as_it_is_at_the_start() {
+    // So wide a band that one disc near the target blocks it altogether.
+    let scene = Builder::new(2).yaw_tolerance(1.5).disc("t", 1.0, 1.0, 0.05).disc("far", 0.3, 0.3, 0.05).build("t");
+    let relocations = Some(vec![step("far", [1.12, 1.0], 0.0, 0.0)]);
+    let claim = Claim { verdict: None, relocations, target_grasp: Some(grasp(0.0, 1.57)), ..bound(1, &[&["far"]]) };
+    expect(&scene, &claim, &[ReleaseBlocked, TargetBlocked, LandmarkRefuted, BoundUnproven]);
+}
+
+#[test]
 fn no_landmarks_prove_nothing() {
     let scene = gate_with_posts();
     expect(&scene, &Claim { lower_bound: Some(0), ..Claim::default() }, &[]);
@@ -118,4 +127,18 @@ fn needed_objects_are_lifted_in_their_order() {
     expect(&scene, &needed(&["cap", "cap", "west", "east"]), &[WrongNeeded]);
     expect(&scene, &needed(&["cap", "west", "east", "north"]), &[WrongNeeded]);
     expect(&scene, &needed(&["cap", "west", "east", "nobody"]), &[UnknownObject]);
+}
+
+#[test]
+fn nothing_is_needed_where_nothing_blocks_or_only_touches() {
+    use core::f64::consts::FRAC_PI_2;
+    let nothing = Claim { needed: Some(Vec::new()), ..Claim::default() };
+    let alone = Builder::new(2).yaw_tolerance(3.0).disc("t", 1.0, 1.0, 0.05).build("t");
+    assert_valid(&alone, &nothing);
+    // The outer corner passes in touch with the disc.
+    let touch = 1.0 + (0.01_f64 + 0.0001).sqrt() + 0.05;
+    let scene =
+        |x| Builder::new(2).yaw_tolerance(FRAC_PI_2).disc("t", 1.0, 1.0, 0.05).disc("o", x, 1.0, 0.05).build("t");
+    assert_valid(&scene(touch), &nothing);
+    expect(&scene(touch - 1e-6), &nothing, &[WrongNeeded]);
 }
