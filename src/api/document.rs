@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use axum::http::header;
 use axum::response::IntoResponse;
 use utoipa::openapi::header::HeaderBuilder;
-use utoipa::openapi::{ContentBuilder, ObjectBuilder, Ref, RefOr, Response, ResponseBuilder, Type};
+use utoipa::openapi::{ContentBuilder, ObjectBuilder, Ref, RefOr, Response, ResponseBuilder, Schema, Type};
 use utoipa::{IntoResponses, OpenApi};
 
 use super::problem::PROBLEM_JSON;
@@ -20,7 +20,7 @@ use crate::wire::Problem;
         description = "Plans the fewest relocations that free an object on a crowded table, with proof.\n\n\
             Metres and radians everywhere; milliseconds only in fields that end in `_ms`. A verdict is an answer, not an \
             error. Every error is a problem document (RFC 9457) that lists all faults of the body at once, each with its \
-            JSON pointer. A client must refuse an `action` or a `verdict` that it doesn't know.",
+            JSON pointer; an unknown path is a 404, a known path with another method a 405 with `Allow`. A client must refuse an `action` or a `verdict` that it doesn't know.",
         contact(),
         license(name = "MIT", identifier = "MIT")
     ),
@@ -41,7 +41,25 @@ pub(super) fn blank() -> utoipa::openapi::OpenApi {
 
 /// The interface document.
 pub fn openapi() -> utoipa::openapi::OpenApi {
-    router::routes().into_openapi()
+    let mut document = router::routes().into_openapi();
+    let schemas = document.components.iter_mut().flat_map(|components| components.schemas.values_mut());
+    schemas.for_each(describe_nullable_fields);
+    document
+}
+
+/// The derive describes only the reference in "reference or null"; the description belongs to the field.
+fn describe_nullable_fields(schema: &mut RefOr<Schema>) {
+    let RefOr::T(Schema::Object(object)) = schema else { return };
+    for field in object.properties.values_mut() {
+        let RefOr::T(Schema::OneOf(choice)) = field else { continue };
+        let described = choice.items.iter_mut().find_map(|item| match item {
+            RefOr::Ref(reference) if !reference.description.is_empty() => {
+                Some(core::mem::take(&mut reference.description))
+            }
+            _ => None,
+        });
+        choice.description = choice.description.take().or(described);
+    }
 }
 
 /// The interface document as it is committed and served.

@@ -101,7 +101,7 @@ impl<'a> Node<'a> {
     /// An object with fields of these names and no others.
     pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
         let Value::Object(map) = self.value else { return self.wrong_type("an object", faults) };
-        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())) {
+        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())).take(MAX_FAULTS) {
             let path = self.path.field(name);
             if names.reserved.contains(&name.as_str()) {
                 faults.add("unknown_field", &path, format_args!("this name is reserved for a later version"));
@@ -110,6 +110,11 @@ impl<'a> Node<'a> {
             }
         }
         Some(Fields { map, path: self.path })
+    }
+
+    /// An object, whatever is in it.
+    pub(super) fn any_object(&self, faults: &mut Faults) -> Option<()> {
+        if self.value.is_object() { Some(()) } else { self.wrong_type("an object", faults) }
     }
 
     pub(super) fn number(&self, faults: &mut Faults) -> Option<f64> {
@@ -158,6 +163,11 @@ impl<'a> Node<'a> {
         choice
     }
 
+    /// How many items the list has; 0 for anything else.
+    pub(super) fn length(&self) -> usize {
+        self.value.as_array().map_or(0, Vec::len)
+    }
+
     /// A list. An item that can't be read keeps its place as the default value: its fault has been noted.
     pub(super) fn list<T: Default>(
         &self,
@@ -202,10 +212,15 @@ impl Fields<'_> {
     ) -> Option<T> {
         let path = self.path.field(name);
         let Some(value) = self.map.get(name) else {
-            faults.add("missing", &path, format_args!("the field '{name}' is required"));
+            self.missing(name, faults);
             return None;
         };
         read(Node { value, path: &path }, faults)
+    }
+
+    /// Note that a field ought to be there.
+    pub(super) fn missing(&self, name: &'static str, faults: &mut Faults) {
+        faults.add("missing", &self.path.field(name), format_args!("the field '{name}' is required"));
     }
 
     /// A field that may be absent or null, and means `default` then. `None` only where it is there and unreadable.
