@@ -1,7 +1,9 @@
 //! Plans the fewest relocations that free an object on a crowded table, and proves it.
 
+pub mod api;
 pub mod budget;
 pub mod experiments;
+pub mod jobs;
 pub mod plan;
 pub mod render;
 pub mod scene;

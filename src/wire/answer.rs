@@ -15,7 +15,6 @@ use crate::scene::{ObjectIndex, Scene};
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct AnswerBody {
     /// What was found.
-    #[schema(inline, example = "relocate")]
     pub verdict: VerdictWord,
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
@@ -24,6 +23,10 @@ pub struct AnswerBody {
     #[schema(example = "plate-1")]
     pub target: String,
     /// The plan, in order of execution; empty where there is none or none is needed.
+    #[schema(example = json!([{
+        "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
+        "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
+    }]))]
     pub relocations: Vec<RelocationBody>,
     /// How the target is grasped in the end; null where there is no plan.
     #[schema(required = true)]
@@ -48,6 +51,11 @@ pub struct AnswerBody {
     #[schema(required = true, example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
     /// What is worth knowing about the scene.
+    #[schema(example = json!([{
+        "code": "overlap",
+        "pointer": "/objects/2",
+        "detail": "overlaps 'plate-1' by 0.000400 m (tolerance 0.001 m)"
+    }]))]
     pub warnings: Vec<ErrorItem>,
     /// How long each phase took; differs from run to run.
     pub statistics: StatisticsBody,
@@ -56,6 +64,7 @@ pub struct AnswerBody {
 /// What was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "relocate")]
 pub enum VerdictWord {
     /// The target can be grasped as the table stands.
     Graspable,
@@ -73,7 +82,6 @@ pub enum VerdictWord {
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct RelocationBody {
     /// The kind of step.
-    #[schema(inline, example = "pick_place")]
     pub action: ActionWord,
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]
@@ -94,6 +102,7 @@ pub struct RelocationBody {
 /// The kind of step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "pick_place")]
 pub enum ActionWord {
     /// Pick an object up and place it elsewhere.
     PickPlace,

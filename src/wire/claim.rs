@@ -17,6 +17,12 @@ pub struct VerifyRequest {
     pub claim: Claim,
 }
 
+impl AsRef<PlanRequest> for VerifyRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        &self.request
+    }
+}
+
 const VERIFY: Names = Names::of(&["scene", "plan"]);
 const PLAN: Names = Names::of(&[
     "verdict",
@@ -89,16 +95,16 @@ fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Opti
         Some(node.list(faults, |node, faults| relocation(node, faults).map(Some))?.into_iter().flatten().collect())
     });
     // Without a verdict the steps and the last grasp are all that can be checked.
-    let target_grasp = if fields.states("verdict") {
-        fields.stated("target_grasp", faults, grasp)
-    } else {
-        fields.required("target_grasp", faults, grasp)
-    };
+    if !fields.states("verdict") && !fields.states("target_grasp") {
+        fields.missing("target_grasp", faults);
+    }
+    fields.stated("warnings", faults, |node, faults| node.list(faults, |node, faults| node.any_object(faults)));
+    fields.stated("statistics", faults, |node, faults| node.any_object(faults));
     let count = |node: Node<'_>, faults: &mut Faults| node.whole((0, MAX_COUNT), faults);
     Some(Claim {
         verdict,
         relocations,
-        target_grasp,
+        target_grasp: fields.stated("target_grasp", faults, grasp),
         cost: fields.stated("cost", faults, count),
         lower_bound: fields.stated("lower_bound", faults, count),
         optimal: fields.stated("optimal", faults, |node, faults| node.boolean(faults)),

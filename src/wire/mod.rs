@@ -24,7 +24,7 @@ pub use scene::{
     GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,
     SettingsBody, TableBody,
 };
-pub use stated::{PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, VerifyBody};
+pub use stated::{PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, StatedStatistics, VerifyBody};
 pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
 pub use verification::{FaultBody, VerificationBody};
 

@@ -21,6 +21,7 @@ pub struct ErrorItem {
 
 /// The kinds of problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[schema(example = "urn:singulate:problem:invalid_request")]
 pub enum ProblemKind {
     /// The body is not JSON.
     #[serde(rename = "urn:singulate:problem:malformed_json")]
@@ -89,7 +90,6 @@ impl ProblemKind {
 pub struct Problem {
     /// The kind of problem, a URI for programs.
     #[serde(rename = "type")]
-    #[schema(inline, example = "urn:singulate:problem:invalid_request")]
     kind: ProblemKind,
     /// The kind of problem, for people.
     #[schema(example = "The request is invalid")]
@@ -101,7 +101,11 @@ pub struct Problem {
     #[schema(example = "1 fault")]
     detail: String,
     /// Every fault of the body that was found, 1000 at the most; empty where the body is not to blame.
-    #[schema(max_items = 1000)]
+    #[schema(max_items = 1000, example = json!([{
+        "code": "out_of_range",
+        "pointer": "/objects/3/radius",
+        "detail": "-0.075 is not between 0.000001 and 1000"
+    }]))]
     errors: Vec<ErrorItem>,
 }
 

@@ -112,6 +112,11 @@ impl<'a> Node<'a> {
         Some(Fields { map, path: self.path })
     }
 
+    /// An object, whatever is in it.
+    pub(super) fn any_object(&self, faults: &mut Faults) -> Option<()> {
+        if self.value.is_object() { Some(()) } else { self.wrong_type("an object", faults) }
+    }
+
     pub(super) fn number(&self, faults: &mut Faults) -> Option<f64> {
         let Value::Number(number) = self.value else { return self.wrong_type("a number", faults) };
         let value = number.as_f64();
@@ -202,10 +207,15 @@ impl Fields<'_> {
     ) -> Option<T> {
         let path = self.path.field(name);
         let Some(value) = self.map.get(name) else {
-            faults.add("missing", &path, format_args!("the field '{name}' is required"));
+            self.missing(name, faults);
             return None;
         };
         read(Node { value, path: &path }, faults)
+    }
+
+    /// Note that a field ought to be there.
+    pub(super) fn missing(&self, name: &'static str, faults: &mut Faults) {
+        faults.add("missing", &self.path.field(name), format_args!("the field '{name}' is required"));
     }
 
     /// A field that may be absent or null, and means `default` then. `None` only where it is there and unreadable.

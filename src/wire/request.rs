@@ -47,6 +47,12 @@ pub struct PlanRequest {
     pub warnings: Vec<ErrorItem>,
 }
 
+impl AsRef<PlanRequest> for PlanRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        self
+    }
+}
+
 /// Read a planning request.
 ///
 /// # Errors

@@ -33,7 +33,10 @@ pub struct SceneBody {
     /// The gripper.
     pub gripper: GripperBody,
     /// The objects on the table, target included.
-    #[schema(min_items = 1, max_items = 10000)]
+    #[schema(min_items = 1, max_items = 10000, example = json!([
+        {"id": "plate-1", "x": 0.31, "y": 0.22, "radius": 0.075},
+        {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
+    ]))]
     pub objects: Vec<ObjectBody>,
     /// The id of the object that is wanted; not a fixed one.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
@@ -60,6 +63,7 @@ pub struct TableBody {
     #[schema(minimum = -100000, maximum = 100000, example = 0.7)]
     pub y_max: f64,
     /// Where nothing may be placed; such places don't block fingers. None where absent.
+    #[schema(example = json!([{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_out: Option<Vec<RectangleBody>>,
 }
@@ -132,19 +136,15 @@ pub struct ObjectBody {
 #[serde(deny_unknown_fields)]
 pub struct SettingsBody {
     /// Which yaws an obstacle blocks. `swept_finger` where absent.
-    #[schema(inline, example = "swept_finger")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grasp_model: Option<GraspModelWord>,
     /// How the least set of relocations is found. `landmarks` where absent.
-    #[schema(inline, example = "landmarks")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchWord>,
     /// How new places are found. `exact` where absent.
-    #[schema(inline, example = "exact")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<PlacementWord>,
     /// Which of the free places a relocated object goes to. `far_from_target` where absent.
-    #[schema(inline, example = "far_from_target")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub objective: Option<ObjectiveWord>,
     /// The time for waiting and planning from the arrival of the request, ms. 1000 where absent.
@@ -156,6 +156,7 @@ pub struct SettingsBody {
 /// Which yaws an obstacle blocks.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "swept_finger")]
 pub enum GraspModelWord {
     /// The exact area that an open finger covers.
     SweptFinger,
@@ -164,6 +165,7 @@ pub enum GraspModelWord {
 /// How the least set of relocations is found.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "landmarks")]
 pub enum SearchWord {
     /// Minimal landmarks and least hitting sets: exact, with a proof.
     Landmarks,
@@ -172,6 +174,7 @@ pub enum SearchWord {
 /// How new places are found.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "exact")]
 pub enum PlacementWord {
     /// Candidates in the continuum.
     Exact,
@@ -180,6 +183,7 @@ pub enum PlacementWord {
 /// Which of the free places a relocated object goes to.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "far_from_target")]
 pub enum ObjectiveWord {
     /// As far from the target as possible.
     FarFromTarget,

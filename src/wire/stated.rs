@@ -29,7 +29,6 @@ pub struct VerifyBody {
 #[serde(deny_unknown_fields)]
 pub struct PlanBody {
     /// The verdict. Where it is absent, `target_grasp` is required.
-    #[schema(inline, example = "relocate")]
     pub verdict: Option<VerdictWord>,
     /// Not checked.
     #[schema(example = "cell-4/17")]
@@ -38,6 +37,10 @@ pub struct PlanBody {
     #[schema(example = "plate-1")]
     pub target: Option<String>,
     /// The steps, in order.
+    #[schema(example = json!([{
+        "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
+        "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
+    }]))]
     pub relocations: Vec<StatedRelocation>,
     /// How the target is grasped in the end.
     pub target_grasp: Option<StatedGrasp>,
@@ -59,19 +62,22 @@ pub struct PlanBody {
     #[schema(example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
     /// Not checked.
-    #[schema(value_type = Option<Value>, example = json!([]))]
+    #[schema(value_type = Option<Vec<Object>>, example = json!([]))]
     pub warnings: (),
     /// Not checked.
-    #[schema(value_type = Option<Value>, example = json!({"knowledge_ms": 0.04}))]
-    pub statistics: (),
+    pub statistics: Option<StatedStatistics>,
 }
+
+/// How long each phase is said to have taken.
+#[derive(Debug, Clone, Copy, ToSchema)]
+#[schema(value_type = Object, example = json!({"knowledge_ms": 0.04}))]
+pub struct StatedStatistics(());
 
 /// A stated step.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedRelocation {
     /// The kind of step; `pick_place` where absent.
-    #[schema(inline, example = "pick_place")]
     pub action: Option<ActionWord>,
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]

@@ -10,6 +10,7 @@ use crate::scene::Scene;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct SurveyBody {
     /// The movable objects, in the order of the request.
+    #[schema(example = json!([{"id": "plate-1", "verdict": "relocate", "lower_bound": 2, "optimal": true}]))]
     pub objects: Vec<SurveyedObject>,
 }
 
@@ -20,7 +21,6 @@ pub struct SurveyedObject {
     #[schema(example = "plate-1")]
     pub id: String,
     /// What holds for it as the target.
-    #[schema(inline, example = "relocate")]
     pub verdict: SurveyWord,
     /// No plan has fewer relocations, proven; null for a deadlock.
     #[schema(required = true, example = 2)]
@@ -33,6 +33,7 @@ pub struct SurveyedObject {
 /// What holds for one object as the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(example = "relocate")]
 pub enum SurveyWord {
     /// It can be grasped as the table stands.
     Graspable,

@@ -12,6 +12,9 @@ pub struct VerificationBody {
     #[schema(example = false)]
     pub valid: bool,
     /// Everything that does not hold.
+    #[schema(example = json!([{
+        "code": "unknown_object", "step": 0, "object": "plate-2", "detail": "there is no object 'plate-2'"
+    }]))]
     pub faults: Vec<FaultBody>,
 }
 
