@@ -6,6 +6,7 @@ mod body;
 mod docs;
 mod document;
 mod log;
+mod patience;
 mod plans;
 mod probes;
 mod problem;

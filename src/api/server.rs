@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use axum::Router;
 use hyper::server::conn::http1;
+use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::{GracefulShutdown, Watcher};
 use hyper_util::service::TowerToHyperService;
@@ -16,11 +17,16 @@ use tokio::task::{JoinSet, spawn_blocking};
 use tokio::time::{sleep, timeout};
 
 use super::app::{App, Engine};
+use super::patience::PatientStream;
 use super::router::router;
 use super::settings::ServerSettings;
 
 /// How long to wait after the system refused a connection, mostly for want of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// How long a connection may rest between two requests. Longer than the usual client's, so that the client closes first
+/// and no request meets a closed door.
+const IDLE_TIMEOUT: Duration = Duration::from_secs(75);
 
 /// How long the clients have, once the last answer is due, to take it.
 const FAREWELL: Duration = Duration::from_secs(5);
@@ -98,10 +104,21 @@ async fn serve(
     if let Err(error) = stream.set_nodelay(true) {
         tracing::debug!(%error, "the connection keeps its delay");
     }
+    let (stream, quiet) = PatientStream::new(stream, settings.header_timeout);
+    let service = TowerToHyperService::new(service);
+    let service = service_fn(move |request| {
+        quiet.set(false);
+        let (answer, quiet) = (service.call(request), quiet.clone());
+        async move {
+            let answer = answer.await;
+            quiet.set(true);
+            answer
+        }
+    });
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
-        .header_read_timeout(settings.header_timeout)
-        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(service));
+        .header_read_timeout(IDLE_TIMEOUT)
+        .serve_connection(TokioIo::new(stream), service);
     if let Err(error) = watcher.watch(connection).await {
         tracing::debug!(%error, "a connection ended early");
     }

@@ -18,7 +18,7 @@ pub struct ServerSettings {
     pub max_body_bytes: usize,
     /// Connections at a time; more wait to be accepted.
     pub connections: usize,
-    /// How long a request's head may take, counted from the connection's start or the last answer.
+    /// How long a request's head may take, counted from its first byte; for the first request from the connection's start.
     pub header_timeout: Duration,
     /// How long a request's body may take.
     pub body_timeout: Duration,

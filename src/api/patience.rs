@@ -1,0 +1,100 @@
+//! A connection that gives a request's head a short time and the pause between two requests a long one. Hyper has one
+//! time for both: short enough for slow heads, it would close a robot's idle connection just as it calls again.
+
+use core::pin::Pin;
+use core::task::{Context, Poll};
+use core::time::Duration;
+use std::io::{self, ErrorKind, IoSlice};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::TcpStream;
+use tokio::time::{Sleep, sleep};
+
+/// True while no request is being answered. Shared by the stream and the service on top of it.
+#[derive(Clone, Default)]
+pub(super) struct Quiet(Arc<AtomicBool>);
+
+impl Quiet {
+    /// A head is complete, or its answer is.
+    pub(super) fn set(&self, quiet: bool) {
+        self.0.store(quiet, Ordering::Relaxed);
+    }
+
+    fn get(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// The stream of one connection.
+pub(super) struct PatientStream {
+    stream: TcpStream,
+    quiet: Quiet,
+    patience: Duration,
+    /// Runs while a head has begun and is not complete.
+    head: Option<Pin<Box<Sleep>>>,
+}
+
+impl PatientStream {
+    /// The first head is due within `patience` from now, each later one from its first byte.
+    pub(super) fn new(stream: TcpStream, patience: Duration) -> (Self, Quiet) {
+        let quiet = Quiet::default();
+        quiet.set(true);
+        (Self { stream, quiet: quiet.clone(), patience, head: Some(Box::pin(sleep(patience))) }, quiet)
+    }
+
+    /// An error once the head that has begun is overdue.
+    fn check_head(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        match &mut self.head {
+            Some(head) => head.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
+            None => Poll::Pending,
+        }
+    }
+}
+
+impl AsyncRead for PatientStream {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        buffer: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        if !self.quiet.get() {
+            self.head = None;
+        }
+        let result = Pin::new(&mut self.stream).poll_read(context, buffer);
+        if result.is_pending() {
+            return self.check_head(context);
+        }
+        if self.quiet.get() && self.head.is_none() {
+            self.head = Some(Box::pin(sleep(self.patience)));
+        }
+        result
+    }
+}
+
+impl AsyncWrite for PatientStream {
+    fn poll_write(mut self: Pin<&mut Self>, context: &mut Context<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.stream).poll_write(context, bytes)
+    }
+
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        slices: &[IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.stream).poll_write_vectored(context, slices)
+    }
+
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_flush(context)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_shutdown(context)
+    }
+}

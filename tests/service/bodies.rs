@@ -1,0 +1,128 @@
+//! What is refused, and with which words.
+
+use serde_json::{Value, json};
+use singulate::api::{Engine, ServerSettings};
+
+use crate::host::{Host, read_to_end, scene};
+
+#[tokio::test]
+async fn every_fault_of_a_scene_is_told_at_once() {
+    let host = Host::start().await;
+    let mut body = scene(1000);
+    body["objects"][0]["radius"] = json!(-1);
+    body["gripper"]["fingers"] = json!("three");
+    body["colour"] = json!("red");
+    for path in ["/v1/plans", "/v1/survey"] {
+        let reply = host.post(path, &body).await;
+        reply.is_problem(422, "invalid_request");
+        assert_eq!(reply.pointers(), ["/colour", "/gripper/fingers", "/objects/0/radius"]);
+    }
+    let reply = host.post("/v1/plans/verify", &json!({"scene": body, "plan": {"action": "push"}})).await;
+    reply.is_problem(422, "invalid_request");
+    assert_eq!(
+        reply.pointers(),
+        [
+            "/scene/colour",
+            "/scene/gripper/fingers",
+            "/scene/objects/0/radius",
+            "/plan/action",
+            "/plan/relocations",
+            "/plan/target_grasp"
+        ]
+    );
+}
+
+#[tokio::test]
+async fn a_number_beyond_every_double_is_out_of_range() {
+    let host = Host::start().await;
+    let body = scene(1000).to_string().replacen("0.075", "1e999", 1);
+    let reply = host.post_with("/v1/plans", &[("content-type", "application/json")], body).await;
+    reply.is_problem(422, "invalid_request");
+    assert_eq!(reply.json()["errors"][0]["code"], "out_of_range");
+    assert_eq!(reply.pointers(), ["/objects/0/radius"]);
+}
+
+#[tokio::test]
+async fn malformed_json_is_a_400_with_its_place() {
+    let host = Host::start().await;
+    let reply = host.post_with("/v1/plans", &[("content-type", "application/json")], "{\n\"a\": }".to_owned()).await;
+    reply.is_problem(400, "malformed_json");
+    assert!(reply.json()["detail"].as_str().unwrap().contains("line 2 column 6"), "{reply:?}");
+}
+
+#[tokio::test]
+async fn a_large_body_is_read_all_the_same() {
+    let host = Host::start().await;
+    let mut body = scene(1000);
+    let objects: Vec<Value> =
+        (0..2000).map(|n| json!({"id": format!("o{n}"), "x": 0.1, "y": 0.1, "radius": 0})).collect();
+    body["objects"] = json!(objects);
+    body["target"] = json!("o7");
+    let reply = host.post("/v1/plans", &body).await;
+    reply.is_problem(422, "invalid_request");
+    assert_eq!(reply.pointers().len(), 1000);
+}
+
+#[tokio::test]
+async fn other_content_types_are_a_415() {
+    let host = Host::start().await;
+    let body = scene(1000).to_string();
+    for headers in [
+        &[][..],
+        &[("content-type", "text/plain")],
+        &[("content-type", "application/json; charset=latin1")],
+        &[("content-type", "application/json"), ("content-encoding", "gzip")],
+    ] {
+        host.post_with("/v1/plans", headers, body.clone()).await.is_problem(415, "unsupported_media_type");
+    }
+    for content_type in ["application/json; charset=UTF-8", "application/scene+json"] {
+        let reply = host.post_with("/v1/plans", &[("content-type", content_type)], body.clone()).await;
+        assert_eq!(reply.status, 200, "{content_type}");
+    }
+}
+
+#[tokio::test]
+async fn a_body_above_the_limit_is_a_413() {
+    let settings = ServerSettings { max_body_bytes: 1000, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let body = " ".repeat(1001);
+    host.post_with("/v1/plans", &[("content-type", "application/json")], body).await.is_problem(413, "body_too_large");
+    let body = format!("{:1000}", scene(1000));
+    let reply = host.post_with("/v1/plans", &[("content-type", "application/json")], body).await;
+    assert_eq!(reply.status, 200);
+}
+
+#[tokio::test]
+async fn a_body_above_the_limit_is_a_413_in_chunks_too() {
+    let settings = ServerSettings { max_body_bytes: 1000, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ntransfer-encoding: chunked";
+    let chunk = format!("1f4\r\n{}\r\n", " ".repeat(500));
+    let stream = host.raw(&format!("{head}\r\n\r\n{chunk}{chunk}{chunk}0\r\n\r\n"));
+    let text = read_to_end(stream).await;
+    assert!(text.starts_with("HTTP/1.1 413 ") && text.contains("application/problem+json"), "{text}");
+}
+
+#[tokio::test]
+async fn an_unknown_path_is_a_404() {
+    let host = Host::start().await;
+    for path in ["/", "/v1", "/v1/plans/", "/v2/plans", "/docs/nothing.js", "/livez/x"] {
+        host.get(path).await.is_problem(404, "not_found");
+    }
+    host.post("/v1/nothing", &json!({})).await.is_problem(404, "not_found");
+}
+
+#[tokio::test]
+async fn another_method_is_a_405_that_says_which_are_allowed() {
+    let host = Host::start().await;
+    for path in ["/v1/plans", "/v1/plans/verify", "/v1/survey"] {
+        let reply = host.get(path).await;
+        reply.is_problem(405, "method_not_allowed");
+        assert_eq!(reply.header("allow"), "POST");
+    }
+    for path in ["/livez", "/readyz", "/version", "/openapi.json", "/docs", "/docs/"] {
+        let reply = host.post(path, &json!({})).await;
+        reply.is_problem(405, "method_not_allowed");
+        assert_eq!(reply.header("allow"), "GET,HEAD");
+    }
+}

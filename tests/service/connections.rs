@@ -1,0 +1,66 @@
+//! Clients that are slow, idle or many.
+
+use core::time::Duration;
+use std::io::Write;
+
+use singulate::api::{Engine, ServerSettings};
+
+use crate::host::{Host, read_to_end};
+
+#[tokio::test]
+async fn a_slow_head_is_cut_off() {
+    let settings = ServerSettings { header_timeout: Duration::from_millis(50), ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let stream = host.raw("GET /livez HTTP/1.1\r\nhost:");
+    assert!(!read_to_end(stream).await.contains("200"));
+}
+
+#[tokio::test]
+async fn a_connection_may_rest_longer_between_requests_than_a_head_may_take() {
+    let patience = Duration::from_millis(50);
+    let host =
+        Host::with(ServerSettings { header_timeout: patience, ..ServerSettings::default() }, Engine::default()).await;
+    let request = "GET /livez HTTP/1.1\r\nhost: x\r\n";
+    let mut stream = host.raw(&format!("{request}\r\n"));
+    tokio::time::sleep(patience * 4).await;
+    stream.write_all(format!("{request}connection: close\r\n\r\n").as_bytes()).unwrap();
+    assert_eq!(read_to_end(stream).await.matches("HTTP/1.1 200 OK").count(), 2);
+}
+
+#[tokio::test]
+async fn a_slow_second_head_is_cut_off_too() {
+    let settings = ServerSettings { header_timeout: Duration::from_millis(50), ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let mut stream = host.raw("GET /livez HTTP/1.1\r\nhost: x\r\n\r\n");
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    stream.write_all(b"GET /livez").unwrap();
+    assert_eq!(read_to_end(stream).await.matches("HTTP/1.1 200 OK").count(), 1);
+}
+
+#[tokio::test]
+async fn a_slow_body_is_a_408() {
+    let settings = ServerSettings { body_timeout: Duration::from_millis(50), ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: 100\r\n\r\n";
+    let text = read_to_end(host.raw(&format!("{head}{{\"table\""))).await;
+    assert!(text.starts_with("HTTP/1.1 408 ") && text.contains("application/problem+json"), "{text}");
+}
+
+#[tokio::test]
+async fn a_connection_serves_many_requests() {
+    let host = Host::start().await;
+    let request = "GET /livez HTTP/1.1\r\nhost: x\r\n";
+    let stream = host.raw(&format!("{request}\r\n{request}connection: close\r\n\r\n"));
+    assert_eq!(read_to_end(stream).await.matches("HTTP/1.1 200 OK").count(), 2);
+}
+
+#[tokio::test]
+async fn connections_above_the_cap_wait_for_their_turn() {
+    let settings = ServerSettings { connections: 1, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let request = "GET /livez HTTP/1.1\r\nhost: x\r\nconnection: close\r\n";
+    let first = host.raw(request);
+    let second = host.raw(&format!("{request}\r\n"));
+    drop(first);
+    assert!(read_to_end(second).await.starts_with("HTTP/1.1 200 OK"));
+}

@@ -1,0 +1,143 @@
+//! The interface document and its page.
+
+use serde_json::{Value, json};
+use singulate::api::{ServerSettings, openapi_json};
+use singulate::scene::{
+    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_FINDINGS, MAX_ID_LENGTH, SceneLimits,
+    YAW_TOLERANCE_RANGE,
+};
+use singulate::wire::{MAX_SCENE_ID_LENGTH, RequestLimits};
+
+use crate::host::Host;
+
+const COMMITTED: &str = include_str!("../../openapi/openapi.json");
+
+fn schemas() -> Value {
+    let document: Value = serde_json::from_str(COMMITTED).unwrap();
+    document["components"]["schemas"].clone()
+}
+
+#[test]
+fn the_committed_document_is_the_generated_one() {
+    assert!(COMMITTED == openapi_json(), "rewrite it: cargo run -- openapi > openapi/openapi.json");
+}
+
+#[tokio::test]
+async fn the_served_document_is_the_committed_one() {
+    let reply = Host::start().await.get("/openapi.json").await;
+    assert_eq!((reply.status, reply.header("content-type")), (200, "application/json"));
+    assert!(reply.text == COMMITTED);
+}
+
+#[test]
+fn the_ranges_of_the_document_are_those_of_the_checks() {
+    let schemas = schemas();
+    let ranges = [
+        ("TableBody", &["x_min", "y_min", "x_max", "y_max"][..], COORDINATE_RANGE),
+        ("RectangleBody", &["x_min", "y_min", "x_max", "y_max"], COORDINATE_RANGE),
+        ("ObjectBody", &["x", "y"], COORDINATE_RANGE),
+        ("StatedPoint", &["x", "y"], COORDINATE_RANGE),
+        ("ObjectBody", &["radius"], LENGTH_RANGE),
+        ("GripperBody", &["finger_width", "clearance"], LENGTH_RANGE),
+        ("GripperBody", &["fingers"], FINGERS_RANGE),
+        ("GripperBody", &["margin"], MARGIN_RANGE),
+        ("GripperBody", &["yaw_tolerance"], YAW_TOLERANCE_RANGE),
+    ];
+    for (schema, fields, (min, max)) in ranges {
+        for field in fields {
+            let property = &schemas[schema]["properties"][field];
+            let stated = (property["minimum"].as_f64(), property["maximum"].as_f64());
+            assert_eq!(stated, (Some(min), Some(max)), "{schema}.{field}");
+        }
+    }
+}
+
+#[test]
+fn the_lengths_of_the_document_are_those_of_the_checks() {
+    let schemas = schemas();
+    let property = |schema: &str, field: &str, name: &str| schemas[schema]["properties"][field][name].as_u64().unwrap();
+    let limits = RequestLimits::default();
+    let expected = [
+        ("ObjectBody", "id", "maxLength", MAX_ID_LENGTH),
+        ("SceneBody", "target", "maxLength", MAX_ID_LENGTH),
+        ("SceneBody", "scene_id", "maxLength", MAX_SCENE_ID_LENGTH),
+        ("SceneBody", "objects", "maxItems", SceneLimits::default().max_objects),
+        ("Problem", "errors", "maxItems", MAX_FINDINGS),
+        ("SettingsBody", "time_limit_ms", "maximum", usize::try_from(limits.max_time_limit.as_millis()).unwrap()),
+    ];
+    for (schema, field, name, value) in expected {
+        assert_eq!(property(schema, field, name), value as u64, "{schema}.{field}.{name}");
+    }
+    let default = &schemas["SettingsBody"]["properties"]["time_limit_ms"]["description"];
+    assert!(default.as_str().unwrap().contains(&format!("{} where absent", limits.default_time_limit.as_millis())));
+    let grouped = |number: usize| format!("{},{:03},{:03}", number / 1_000_000, number / 1000 % 1000, number % 1000);
+    assert!(COMMITTED.contains(&grouped(ServerSettings::default().max_body_bytes)));
+}
+
+#[test]
+fn every_schema_and_field_is_described_and_every_plain_field_has_an_example() {
+    for (name, schema) in schemas().as_object().unwrap() {
+        assert!(schema["description"].is_string(), "{name}");
+        for (field, property) in schema["properties"].as_object().into_iter().flatten() {
+            assert!(property["description"].is_string(), "{name}.{field}");
+            let refers =
+                property.to_string().contains("\"$ref\":\"#/components/schemas/") && property["items"].is_null();
+            assert!(refers || !property["example"].is_null(), "{name}.{field}");
+        }
+    }
+}
+
+#[test]
+fn bodies_of_requests_have_no_other_fields() {
+    let schemas = schemas();
+    let requests =
+        ["SceneBody", "TableBody", "RectangleBody", "GripperBody", "ObjectBody", "SettingsBody", "VerifyBody"];
+    let stated = ["PlanBody", "StatedRelocation", "StatedPoint", "StatedGrasp", "StatedDeadlock"];
+    for name in requests.iter().chain(&stated) {
+        assert_eq!(schemas[name]["additionalProperties"], json!(false), "{name}");
+    }
+}
+
+#[test]
+fn every_operation_is_described() {
+    let document: Value = serde_json::from_str(COMMITTED).unwrap();
+    let operations =
+        document["paths"].as_object().unwrap().values().flat_map(|path| path.as_object().unwrap().values());
+    for operation in operations {
+        for field in ["operationId", "summary", "description"] {
+            assert!(operation[field].is_string(), "{operation}");
+        }
+        for response in operation["responses"].as_object().unwrap().values() {
+            assert!(response["description"].is_string() && response["content"].is_object(), "{operation}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn the_examples_of_the_document_are_answered() {
+    let (host, schemas) = (Host::start().await, schemas());
+    for (path, schema) in [("/v1/plans", "SceneBody"), ("/v1/survey", "SceneBody"), ("/v1/plans/verify", "VerifyBody")]
+    {
+        let reply = host.post(path, &schemas[schema]["example"]).await;
+        assert_eq!(reply.status, 200, "{reply:?}");
+    }
+}
+
+#[tokio::test]
+async fn the_page_needs_no_internet() {
+    let host = Host::start().await;
+    let page = host.get("/docs").await;
+    assert_eq!((page.status, page.header("content-type")), (200, "text/html"));
+    assert_eq!(host.get("/docs/").await.text, page.text);
+    let pieces = page.text.split('"').filter(|piece| [".js", ".css", ".png"].iter().any(|end| piece.ends_with(end)));
+    let files: Vec<&str> = pieces.map(|piece| piece.trim_start_matches("./")).collect();
+    assert!(files.contains(&"swagger-initializer.js"), "{files:?}");
+    for name in &files {
+        assert_eq!(host.get(&format!("/docs/{name}")).await.status, 200, "{name}");
+    }
+    let initializer = host.get("/docs/swagger-initializer.js").await.text;
+    assert!(initializer.contains(r#""validatorUrl": "none""#) && initializer.contains("../openapi.json"));
+    for text in [page.text, initializer, host.get("/docs/index.css").await.text] {
+        assert!(!text.contains("http://") && !text.contains("https://") && !text.contains("\"//"), "{text}");
+    }
+}

@@ -1,0 +1,10 @@
+//! The service as its clients see it: a real server on a port of its own, in this process.
+
+#![expect(clippy::unwrap_used, reason = "what fails here fails the test")]
+
+mod bodies;
+mod connections;
+mod document;
+mod host;
+mod negotiation;
+mod planning;
