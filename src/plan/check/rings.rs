@@ -1,0 +1,139 @@
+//! Who stands round each object at the start, and whether those that still stand leave it a yaw.
+
+use std::rc::Rc;
+
+use crate::budget::Interrupted;
+use crate::scene::{ObjectIndex, Scene};
+
+use super::finger::Finger;
+use super::meter::Meter;
+use super::near::Places;
+use super::yaws::blocked_yaws;
+
+/// Which way a case is decided that rounding leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Leaning {
+    /// Rather blocked: for statements that an object can't be grasped (locks, landmarks).
+    Blocked,
+    /// Rather free: for statements that it can (needed objects).
+    Free,
+}
+
+/// A free interval is called so only when its width is this much beyond the least, rad: two ways to find an end of it
+/// differ by less.
+const WIDTH_LEANING: f64 = 1e-10;
+/// An obstacle is taken larger by this share of the lengths in play. Where a circle is only just touched, the last digit
+/// decides between no shadow and one of 1e-8 rad; this is far above the last digit and far below `WIDTH_LEANING`.
+const LENGTH_LEANING: f64 = 1e-12;
+
+impl Leaning {
+    fn sign(self) -> f64 {
+        match self {
+            Self::Blocked => 1.0,
+            Self::Free => -1.0,
+        }
+    }
+}
+
+/// Yaws that one obstacle blocks.
+struct Shade {
+    lo: f64,
+    hi: f64,
+    by: ObjectIndex,
+}
+
+/// All that blocks one object at the start.
+pub(super) struct Ring {
+    /// By `lo`.
+    shades: Vec<Shade>,
+}
+
+impl Ring {
+    /// How many intervals it holds.
+    pub(super) fn len(&self) -> usize {
+        self.shades.len()
+    }
+
+    /// Who blocks some yaw; one that has several shades is named several times.
+    pub(super) fn blockers(&self) -> impl Iterator<Item = ObjectIndex> + '_ {
+        self.shades.iter().map(|shade| shade.by)
+    }
+}
+
+/// The rings of a scene, each made when it is first asked for.
+pub(super) struct Rings<'a> {
+    scene: &'a Scene,
+    places: &'a Places,
+    leaning: Leaning,
+    made: Vec<Option<Rc<Ring>>>,
+    /// For each object those whose ring, if made, holds it.
+    watchers: Vec<Vec<ObjectIndex>>,
+}
+
+impl<'a> Rings<'a> {
+    pub(super) fn new(scene: &'a Scene, places: &'a Places, leaning: Leaning) -> Self {
+        let count = scene.objects().len();
+        Self { scene, places, leaning, made: vec![None; count], watchers: vec![Vec::new(); count] }
+    }
+
+    /// The ring of an object.
+    pub(super) fn ring(&mut self, object: ObjectIndex, meter: &mut Meter<'_>) -> Result<Rc<Ring>, Interrupted> {
+        if let Some(ring) = &self.made[object.get()] {
+            return Ok(Rc::clone(ring));
+        }
+        let ring = Rc::new(self.make(object, meter)?);
+        for by in ring.blockers() {
+            let watchers = &mut self.watchers[by.get()];
+            if watchers.last() != Some(&object) {
+                watchers.push(object);
+            }
+        }
+        self.made[object.get()] = Some(Rc::clone(&ring));
+        Ok(ring)
+    }
+
+    /// The objects in whose rings, as far as they are made, this one stands.
+    pub(super) fn watchers(&self, object: ObjectIndex) -> &[ObjectIndex] {
+        &self.watchers[object.get()]
+    }
+
+    fn make(&self, object: ObjectIndex, meter: &mut Meter<'_>) -> Result<Ring, Interrupted> {
+        let (gripper, disc) = (self.scene.gripper(), self.scene.object(object).disc());
+        let finger = Finger::new(gripper, disc.radius);
+        let reach = (finger.corner_distance() + gripper.margin()) * (1.0 + 4.0 * LENGTH_LEANING);
+        let mut near = Vec::new();
+        self.places.within(disc.centre, reach, |place| near.push(place));
+        meter.spend(1)?;
+        let mut shades = Vec::new();
+        for place in near {
+            let by = self.places.owner(place);
+            if by == object || !self.places.is_start(place) {
+                continue;
+            }
+            meter.spend(1)?;
+            let (obstacle, rho) = (self.places.disc(place), self.places.disc(place).radius + gripper.margin());
+            let apart = obstacle.centre - disc.centre;
+            let rho = rho + self.leaning.sign() * LENGTH_LEANING * (rho + apart.norm());
+            let yaws = blocked_yaws(&finger, gripper.period(), apart, rho);
+            shades.extend(yaws.into_iter().map(|[lo, hi]| Shade { lo, hi, by }));
+        }
+        shades.sort_unstable_by(|a, b| a.lo.total_cmp(&b.lo).then(a.by.cmp(&b.by)));
+        Ok(Ring { shades })
+    }
+
+    /// True if the object of this ring has a free interval of yaws that counts, while those obstacles stand for which
+    /// `stands` is true. Where nothing blocks every yaw will do, whatever the tolerance.
+    pub(super) fn is_free(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> bool {
+        let gripper = self.scene.gripper();
+        let mut shades = ring.shades.iter().filter(|shade| stands(shade.by));
+        let Some(first) = shades.next() else { return true };
+        let (mut covered, mut widest) = (first.hi, 0.0_f64);
+        for shade in shades {
+            widest = widest.max(shade.lo - covered);
+            covered = covered.max(shade.hi);
+        }
+        // The interval round the period's end.
+        widest = widest.max(first.lo + gripper.period() - covered);
+        widest > gripper.min_free_width() + self.leaning.sign() * WIDTH_LEANING
+    }
+}
