@@ -1,3 +1,6 @@
-//! From scenes to checked answers.
+//! Whole answers: golden scenes and bases, generated scenes, the checker.
 
+mod bases;
 mod check;
+mod generated;
+mod scenes;

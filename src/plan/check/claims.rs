@@ -5,8 +5,11 @@ use crate::plan::claim::{Claim, VerdictName};
 use super::bound::Proof;
 use super::fault::{FaultCode, Faults};
 
-/// The cost of the stated plan: what was counted, or else what is said.
+/// The cost of the stated plan: what was counted, or else what is said. `None` where the verdict comes without a plan.
 fn cost(claim: &Claim) -> Option<u64> {
+    if matches!(claim.verdict, Some(VerdictName::NoSpace | VerdictName::TimedOut | VerdictName::Deadlock)) {
+        return None;
+    }
     claim.relocations.as_ref().map(|steps| steps.len() as u64).or(claim.cost)
 }
 

@@ -1,0 +1,36 @@
+//! `GET /docs/`: the interface document as a page. All its files are in the binary.
+
+use std::sync::{Arc, LazyLock};
+
+use axum::extract::Path;
+use axum::http::header;
+use axum::response::{IntoResponse, Redirect, Response};
+use utoipa_swagger_ui::Config;
+
+use super::problem::{internal, not_found};
+use crate::wire::Problem;
+
+// The page's own validator lives on the internet, so it stays off.
+static CONFIG: LazyLock<Arc<Config<'static>>> =
+    LazyLock::new(|| Arc::new(Config::from("../openapi.json").validator_url("none").use_base_layout()));
+
+/// The page's files are named relative to the folder.
+pub(super) async fn to_folder() -> Redirect {
+    Redirect::permanent("/docs/")
+}
+
+pub(super) async fn page() -> Result<Response, Problem> {
+    send("").await
+}
+
+pub(super) async fn file(Path(name): Path<String>) -> Result<Response, Problem> {
+    send(&name).await
+}
+
+async fn send(name: &str) -> Result<Response, Problem> {
+    let Some(file) = utoipa_swagger_ui::serve(name, Arc::clone(&CONFIG)).map_err(|_| internal())? else {
+        return Err(not_found().await);
+    };
+    let encoding = file.gzpipped.then_some([(header::CONTENT_ENCODING, "gzip")]);
+    Ok(([(header::CONTENT_TYPE, file.content_type)], encoding, file.bytes.into_owned()).into_response())
+}

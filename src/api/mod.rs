@@ -1,0 +1,22 @@
+//! The HTTP interface: one file a resource, every route in [`router`], every status in `problem`.
+
+mod accept;
+mod app;
+mod body;
+mod docs;
+mod document;
+mod log;
+mod plans;
+mod probes;
+mod problem;
+mod router;
+pub mod server;
+mod settings;
+mod survey;
+mod verification;
+
+pub use app::{App, Engine};
+pub use document::{openapi, openapi_json};
+pub use router::router;
+pub use server::run;
+pub use settings::ServerSettings;

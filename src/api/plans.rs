@@ -1,0 +1,60 @@
+//! `POST /v1/plans`.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::{Request, header};
+use axum::response::{IntoResponse, Response};
+
+use super::accept::{self, Form};
+use super::app::{App, Served, json};
+use super::document::RequestProblems;
+use super::{body, log, problem};
+use crate::budget::Budget;
+use crate::plan::{Answer, Statistics, Unplanned, Verdict};
+use crate::render;
+use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
+
+/// Plan now
+///
+/// Which objects to move, in which order, to where, so that the gripper can grasp the target; or the proof that nothing
+/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`.
+#[utoipa::path(
+    post,
+    path = "/v1/plans",
+    operation_id = "plan",
+    tag = "planning",
+    request_body(content = SceneBody, content_type = "application/json", description = "The scene and how to plan."),
+    responses(
+        (status = 200, description = "The verdict with its plan and proof; as a drawing where `Accept` prefers one.",
+         content((AnswerBody = "application/json"), (String = "image/svg+xml"))),
+        RequestProblems,
+    )
+)]
+pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+    let arrival = Instant::now();
+    let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
+    let body = body::receive(request, &app.settings).await?;
+    let request = Arc::new(app.parse(body, read_scene).await?);
+    log::note_scene(request.scene_id.as_deref());
+    let engine = app.engine;
+    let work = move |request: &PlanRequest, budget: &Budget<'_>| {
+        let answer = (engine.plan)(&request.scene, &request.settings, budget);
+        write(form, request, &answer.map_err(|error| problem::plan_failed(request, &error))?)
+    };
+    let too_late = move |request: &PlanRequest| {
+        let verdict = Verdict::TimedOut(Unplanned::default());
+        write(form, request, &Answer { verdict, statistics: Statistics::default() })
+    };
+    let bytes = app.compute(arrival, request, work, too_late).await?;
+    Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
+}
+
+fn write(form: Form, request: &PlanRequest, answer: &Answer) -> Served {
+    match form {
+        Form::Json => json(&AnswerBody::new(request, answer)),
+        Form::Svg => Ok(render::svg(&request.scene, answer).into_bytes()),
+    }
+}

@@ -1,0 +1,109 @@
+//! Accepts connections and serves them, until it is told to stop.
+
+use core::pin::pin;
+use core::time::Duration;
+use std::io;
+use std::sync::Arc;
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::server::graceful::{GracefulShutdown, Watcher};
+use hyper_util::service::TowerToHyperService;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::task::{JoinSet, spawn_blocking};
+use tokio::time::{sleep, timeout};
+
+use super::app::{App, Engine};
+use super::router::router;
+use super::settings::ServerSettings;
+
+/// How long to wait after the system refused a connection, mostly for want of file descriptors.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// How long the clients have, once the last answer is due, to take it.
+const FAREWELL: Duration = Duration::from_secs(5);
+
+/// Serve on `listener` until `shutdown` is done; then finish what runs, and return.
+///
+/// # Errors
+/// If the system gives no threads.
+pub async fn run(
+    listener: TcpListener,
+    settings: ServerSettings,
+    shutdown: impl Future<Output = ()>,
+) -> io::Result<()> {
+    run_with(listener, settings, Engine::default(), shutdown).await
+}
+
+/// [`run`] with other computations than the planner's.
+///
+/// # Errors
+/// If the system gives no threads.
+pub async fn run_with(
+    listener: TcpListener,
+    settings: ServerSettings,
+    engine: Engine,
+    shutdown: impl Future<Output = ()>,
+) -> io::Result<()> {
+    let app = Arc::new(App::new(settings, engine)?);
+    let mut connections = JoinSet::new();
+    let graceful = GracefulShutdown::new();
+    {
+        let mut shutdown = pin!(shutdown);
+        let slots = Arc::new(Semaphore::new(settings.connections.max(1)));
+        let service = router(Arc::clone(&app));
+        loop {
+            let (stream, slot) = tokio::select! {
+                () = &mut shutdown => break,
+                accepted = accept(&listener, &slots) => accepted,
+            };
+            connections.spawn(serve(stream, slot, service.clone(), settings, graceful.watcher()));
+            while connections.try_join_next().is_some() {}
+        }
+    }
+    drop(listener);
+    let last_answer = settings.body_timeout + settings.limits.max_time_limit;
+    if timeout(last_answer + FAREWELL, graceful.shutdown()).await.is_err() {
+        tracing::warn!("some clients did not take their answers");
+    }
+    connections.shutdown().await;
+    // Every caller has gone, so whatever still runs is cancelled and ends soon.
+    spawn_blocking(move || app.pool.join()).await.map_err(io::Error::other)
+}
+
+/// The next connection, once there is a slot for it.
+async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, OwnedSemaphorePermit) {
+    loop {
+        let Ok(slot) = Arc::clone(slots).acquire_owned().await else { continue };
+        match listener.accept().await {
+            Ok((stream, _)) => return (stream, slot),
+            Err(error) => {
+                tracing::warn!(%error, "a connection was not accepted");
+                sleep(ACCEPT_PAUSE).await;
+            }
+        }
+    }
+}
+
+async fn serve(
+    stream: TcpStream,
+    slot: OwnedSemaphorePermit,
+    service: Router,
+    settings: ServerSettings,
+    watcher: Watcher,
+) {
+    // Answers are small and waited for.
+    if let Err(error) = stream.set_nodelay(true) {
+        tracing::debug!(%error, "the connection keeps its delay");
+    }
+    let connection = http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(settings.header_timeout)
+        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(service));
+    if let Err(error) = watcher.watch(connection).await {
+        tracing::debug!(%error, "a connection ended early");
+    }
+    drop(slot);
+}

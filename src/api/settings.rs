@@ -1,0 +1,39 @@
+//! What the operator may set.
+
+use core::time::Duration;
+use std::thread::available_parallelism;
+
+use crate::wire::RequestLimits;
+
+/// The service's settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ServerSettings {
+    /// What a request may ask for.
+    pub limits: RequestLimits,
+    /// Planning threads.
+    pub threads: usize,
+    /// Requests that may wait for a planning thread; more are refused.
+    pub queue: usize,
+    /// The largest body, bytes.
+    pub max_body_bytes: usize,
+    /// Connections at a time; more wait to be accepted.
+    pub connections: usize,
+    /// How long a request's head may take, counted from the connection's start or the last answer.
+    pub header_timeout: Duration,
+    /// How long a request's body may take.
+    pub body_timeout: Duration,
+}
+
+impl Default for ServerSettings {
+    fn default() -> Self {
+        Self {
+            limits: RequestLimits::default(),
+            threads: available_parallelism().map_or(1, usize::from),
+            queue: 64,
+            max_body_bytes: 4_000_000,
+            connections: 1024,
+            header_timeout: Duration::from_secs(5),
+            body_timeout: Duration::from_secs(10),
+        }
+    }
+}

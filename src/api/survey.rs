@@ -1,0 +1,49 @@
+//! `POST /v1/survey`.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::{Request, header};
+use axum::response::{IntoResponse, Response};
+
+use super::accept::{self, Form};
+use super::app::{App, json};
+use super::document::RequestProblems;
+use super::{body, log, problem};
+use crate::budget::Budget;
+use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
+
+/// Every movable object as the target
+///
+/// Logic only: how many relocations each object would need, without places for them. The scene's own `target` must be
+/// there, but has no part in the answer. `time_limit_ms` is for the whole call; what is undecided then is `timed_out`.
+#[utoipa::path(
+    post,
+    path = "/v1/survey",
+    operation_id = "survey",
+    tag = "planning",
+    request_body(content = SceneBody, content_type = "application/json", description = "The scene."),
+    responses(
+        (status = 200, description = "What holds for each movable object.",
+         body = SurveyBody, content_type = "application/json"),
+        RequestProblems,
+    )
+)]
+pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+    let arrival = Instant::now();
+    let form = accept::choose(request.headers(), &[Form::Json])?;
+    let body = body::receive(request, &app.settings).await?;
+    let request = Arc::new(app.parse(body, read_scene).await?);
+    log::note_scene(request.scene_id.as_deref());
+    let engine = app.engine;
+    let work = move |request: &PlanRequest, budget: &Budget<'_>| {
+        let entries = (engine.survey)(&request.scene, budget);
+        let entries = entries.map_err(|error| problem::plan_failed(request, &error))?;
+        json(&SurveyBody::new(&request.scene, &entries))
+    };
+    let too_late = |request: &PlanRequest| json(&SurveyBody::timed_out(&request.scene));
+    let bytes = app.compute(arrival, request, work, too_late).await?;
+    Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
+}

@@ -1,0 +1,47 @@
+//! `POST /v1/plans/verify`.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::{Request, header};
+use axum::response::{IntoResponse, Response};
+
+use super::accept::{self, Form};
+use super::app::{App, json};
+use super::document::RequestProblems;
+use super::{body, log};
+use crate::budget::Budget;
+use crate::wire::{Problem, VerificationBody, VerifyBody, VerifyRequest, read_verify};
+
+/// Check a stated answer
+///
+/// The independent checker replays the plan on the scene and re-checks whatever is stated besides: locks, landmarks, the
+/// bound.
+#[utoipa::path(
+    post,
+    path = "/v1/plans/verify",
+    operation_id = "verify",
+    tag = "planning",
+    request_body(content = VerifyBody, content_type = "application/json", description = "A scene and a stated answer."),
+    responses(
+        (status = 200, description = "Whether the answer holds, and all that does not.",
+         body = VerificationBody, content_type = "application/json"),
+        RequestProblems,
+    )
+)]
+pub(super) async fn verify(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+    let arrival = Instant::now();
+    let form = accept::choose(request.headers(), &[Form::Json])?;
+    let body = body::receive(request, &app.settings).await?;
+    let request = Arc::new(app.parse(body, read_verify).await?);
+    log::note_scene(request.request.scene_id.as_deref());
+    let engine = app.engine;
+    let work = move |VerifyRequest { request, claim }: &VerifyRequest, budget: &Budget<'_>| {
+        json(&VerificationBody::new(&(engine.check)(&request.scene, claim, budget)))
+    };
+    let too_late = |_: &VerifyRequest| json(&VerificationBody::timed_out());
+    let bytes = app.compute(arrival, request, work, too_late).await?;
+    Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
+}

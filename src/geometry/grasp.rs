@@ -1,0 +1,39 @@
+//! A free yaw for a grasp or a release.
+
+use super::arcs::{ArcSet, wrap};
+use super::shadow::shadow;
+use crate::scene::{Disc, Gripper};
+
+/// A yaw that is free, with the room round it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grasp {
+    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
+    pub slack: f64,
+}
+
+/// The union of the obstacles' shadows on a grasp of `grasped`; see [`shadow`] for `extra`.
+pub fn free_yaws<'a>(
+    gripper: &Gripper,
+    grasped: &Disc,
+    obstacles: impl IntoIterator<Item = &'a Disc>,
+    extra: f64,
+) -> ArcSet {
+    let shadows: Vec<ArcSet> =
+        obstacles.into_iter().map(|obstacle| shadow(gripper, grasped, obstacle, extra)).collect();
+    ArcSet::union(gripper.period(), &shadows)
+}
+
+/// An interval's width is a difference of sums of angles; what knowledge counts as wide enough must be so here, rad.
+const ROUNDING: f64 = 1e-12;
+
+/// The middle of the widest free interval, if that one is wide enough to count ([`Gripper::min_free_width`]).
+pub fn widest_grasp(gripper: &Gripper, blocked: &ArcSet) -> Option<Grasp> {
+    let widest = blocked.widest_free()?;
+    if blocked.is_empty() {
+        return Some(Grasp { yaw: 0.0, slack: widest.width / 2.0 });
+    }
+    (widest.width >= gripper.min_free_width() - ROUNDING)
+        .then(|| Grasp { yaw: wrap(widest.start + widest.width / 2.0, gripper.period()), slack: widest.width / 2.0 })
+}

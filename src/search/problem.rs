@@ -1,0 +1,162 @@
+//! The part of a knowledge base that one question is about, in dense numbers.
+
+use crate::budget::{Budget, Interrupted};
+use crate::knowledge::{Closure, KnowledgeBase, close};
+use crate::scene::ObjectIndex;
+
+use super::least::Restriction;
+
+/// An object of the problem; the target is numbered after all others.
+pub(super) type Node = u32;
+
+/// Rules over nodes, without those that can't be part of any plan: with the target, a held or an underivable object in
+/// their body, or of objects on which the target does not depend.
+#[derive(Debug)]
+pub(super) struct Problem {
+    /// Node to object, the target last.
+    objects: Vec<ObjectIndex>,
+    /// Per rule its head.
+    heads: Vec<Node>,
+    bodies: Lists,
+    condition_of: Lists,
+}
+
+/// Many short lists in one.
+#[derive(Debug, Default)]
+pub(super) struct Lists {
+    first: Vec<u32>,
+    entries: Vec<u32>,
+}
+
+impl Lists {
+    fn from_pairs(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut first = vec![0_u32; count + 1];
+        pairs.clone().for_each(|(list, _)| first[list as usize + 1] += 1);
+        for at in 1..first.len() {
+            first[at] += first[at - 1];
+        }
+        let mut next = first.clone();
+        let mut entries = vec![0; first[count] as usize];
+        for (list, entry) in pairs {
+            let slot = &mut next[list as usize];
+            entries[*slot as usize] = entry;
+            *slot += 1;
+        }
+        Self { first, entries }
+    }
+
+    pub(super) fn get(&self, list: u32) -> &[u32] {
+        &self.entries[self.first[list as usize] as usize..self.first[list as usize + 1] as usize]
+    }
+}
+
+impl Problem {
+    /// `Ok(None)` if the target can't be derived.
+    pub(super) fn new(
+        base: &KnowledgeBase,
+        target: ObjectIndex,
+        restriction: &Restriction,
+        budget: &Budget<'_>,
+    ) -> Result<Option<Self>, Interrupted> {
+        let usable = Usable::new(base, target, restriction, budget)?;
+        if !usable.closure.derives(target) {
+            return Ok(None);
+        }
+        let mut objects = usable.needed(budget)?;
+        // Whatever is near the target comes late.
+        objects.reverse();
+        let mut node_of = vec![Node::MAX; base.len()];
+        objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
+        let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
+        for &object in &objects {
+            for option in usable.options(object) {
+                #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+                let rule = heads.len() as u32;
+                heads.push(node_of[object.get()]);
+                members.extend(option.iter().map(|member| (rule, node_of[member.get()])));
+            }
+        }
+        let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
+        let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
+        Ok(Some(Self { objects, heads, bodies, condition_of }))
+    }
+
+    /// The number of nodes besides the target.
+    pub(super) fn movable(&self) -> usize {
+        self.objects.len() - 1
+    }
+
+    pub(super) fn target(&self) -> Node {
+        self.heads.last().copied().unwrap_or_default()
+    }
+
+    pub(super) fn rules(&self) -> usize {
+        self.heads.len()
+    }
+
+    pub(super) fn head(&self, rule: u32) -> Node {
+        self.heads[rule as usize]
+    }
+
+    pub(super) fn body(&self, rule: u32) -> &[Node] {
+        self.bodies.get(rule)
+    }
+
+    pub(super) fn condition_of(&self, node: Node) -> &[u32] {
+        self.condition_of.get(node)
+    }
+
+    pub(super) fn object(&self, node: Node) -> ObjectIndex {
+        self.objects[node as usize]
+    }
+
+    pub(super) fn node(&self, object: ObjectIndex) -> Option<Node> {
+        self.objects.iter().zip(0..).find(|(other, _)| **other == object).map(|(_, node)| node)
+    }
+}
+
+/// The rules that can fire when the target and the held objects stay where they are.
+struct Usable<'a> {
+    base: &'a KnowledgeBase,
+    target: ObjectIndex,
+    held: &'a [ObjectIndex],
+    closure: Closure,
+}
+
+impl<'a> Usable<'a> {
+    fn new(
+        base: &'a KnowledgeBase,
+        target: ObjectIndex,
+        restriction: &'a Restriction,
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
+        let held = restriction.held.as_slice();
+        let closure = close(base, |object| object == target || held.contains(&object), budget)?;
+        Ok(Self { base, target, held, closure })
+    }
+
+    fn options(&self, object: ObjectIndex) -> impl Iterator<Item = &'a [ObjectIndex]> {
+        self.base.options(object).filter(|option| {
+            option
+                .iter()
+                .all(|member| *member != self.target && self.closure.derives(*member) && !self.held.contains(member))
+        })
+    }
+
+    /// What the target depends on, breadth first backwards from the target, which comes first.
+    fn needed(&self, budget: &Budget<'_>) -> Result<Vec<ObjectIndex>, Interrupted> {
+        let mut seen = vec![false; self.base.len()];
+        let mut needed = vec![self.target];
+        let mut at = 0;
+        while let Some(&object) = needed.get(at) {
+            at += 1;
+            budget.check()?;
+            for &member in self.options(object).flatten() {
+                if !core::mem::replace(&mut seen[member.get()], true) {
+                    needed.push(member);
+                }
+            }
+        }
+        Ok(needed)
+    }
+}

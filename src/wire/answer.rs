@@ -1,0 +1,258 @@
+//! An answer as JSON.
+
+use core::time::Duration;
+
+use nalgebra::Point2;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::problem::ErrorItem;
+use super::request::PlanRequest;
+use crate::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
+use crate::scene::{ObjectIndex, Scene};
+
+/// The answer to a planning request. A client must refuse a verdict that it doesn't know.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct AnswerBody {
+    /// What was found.
+    #[schema(inline, example = "relocate")]
+    pub verdict: VerdictWord,
+    /// The request's own `scene_id`.
+    #[schema(required = true, example = "cell-4/17")]
+    pub scene_id: Option<String>,
+    /// The id of the object that is wanted.
+    #[schema(example = "plate-1")]
+    pub target: String,
+    /// The plan, in order of execution; empty where there is none or none is needed.
+    pub relocations: Vec<RelocationBody>,
+    /// How the target is grasped in the end; null where there is no plan.
+    #[schema(required = true)]
+    pub target_grasp: Option<GraspBody>,
+    /// The count of relocations; null where there is no plan.
+    #[schema(required = true, example = 1)]
+    pub cost: Option<usize>,
+    /// No plan has fewer relocations, proven; null for a deadlock.
+    #[schema(required = true, example = 1)]
+    pub lower_bound: Option<usize>,
+    /// True if no plan has fewer relocations than this one; null where there is no plan.
+    #[schema(required = true, example = true)]
+    pub optimal: Option<bool>,
+    /// The proof of the bound: of each set of ids every plan moves at least one. Null for a deadlock.
+    #[schema(required = true, example = json!([["plate-2", "plate-5"]]))]
+    pub landmarks: Option<Vec<Vec<String>>>,
+    /// Why nothing frees the target; null for any other verdict.
+    #[schema(required = true)]
+    pub deadlock: Option<DeadlockBody>,
+    /// For `no_space` and `timed_out` the ids of the best known derivation, in order; null otherwise or where none is
+    /// known.
+    #[schema(required = true, example = json!(["plate-2"]))]
+    pub needed: Option<Vec<String>>,
+    /// What is worth knowing about the scene.
+    pub warnings: Vec<ErrorItem>,
+    /// How long each phase took; differs from run to run.
+    pub statistics: StatisticsBody,
+}
+
+/// What was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum VerdictWord {
+    /// The target can be grasped as the table stands.
+    Graspable,
+    /// The plan frees the target.
+    Relocate,
+    /// No sequence of pick-and-place can ever free the target.
+    Deadlock,
+    /// No checked plan was found before the effort limit; not a proof.
+    NoSpace,
+    /// The time limit came first, with no plan in hand.
+    TimedOut,
+}
+
+/// One step of a plan. A client must refuse an action that it doesn't know.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct RelocationBody {
+    /// The kind of step.
+    #[schema(inline, example = "pick_place")]
+    pub action: ActionWord,
+    /// The id of the object that is moved.
+    #[schema(example = "plate-2")]
+    pub object: String,
+    /// Its centre before.
+    pub from: PointBody,
+    /// Its centre after.
+    pub to: PointBody,
+    /// How it is picked.
+    pub grasp: GraspBody,
+    /// How it is let go.
+    pub release: GraspBody,
+    /// Least distance to another object at the new place, edge to edge, m.
+    #[schema(example = 0.031)]
+    pub gap: f64,
+}
+
+/// The kind of step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ActionWord {
+    /// Pick an object up and place it elsewhere.
+    PickPlace,
+}
+
+/// A point on the table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+pub struct PointBody {
+    /// m.
+    #[schema(example = 0.4)]
+    pub x: f64,
+    /// m.
+    #[schema(example = 0.2)]
+    pub y: f64,
+}
+
+/// A yaw of the gripper that is free, with the room round it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+pub struct GraspBody {
+    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
+    #[schema(example = 0.31)]
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
+    #[schema(example = 0.12)]
+    pub slack: f64,
+}
+
+/// Objects that hold each other: at every yaw of every movable one some other of them blocks.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct DeadlockBody {
+    /// The ids of the greatest lock, the target among them; fixed objects where they block a member.
+    #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
+    pub blocked: Vec<String>,
+    /// The ids of a least lock within it: take any one away, and the rest is no lock.
+    #[schema(example = json!(["plate-1", "vase"]))]
+    pub core: Vec<String>,
+}
+
+/// How long each phase took.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+pub struct StatisticsBody {
+    /// Shadows, options and locks, ms.
+    #[schema(example = 0.04)]
+    pub knowledge_ms: f64,
+    /// The least set of relocations and its proof, ms.
+    #[schema(example = 0.01)]
+    pub search_ms: f64,
+    /// New places, ms.
+    #[schema(example = 0.2)]
+    pub placement_ms: f64,
+    /// The independent check, ms.
+    #[schema(example = 0.02)]
+    pub check_ms: f64,
+}
+
+impl AnswerBody {
+    /// The answer to a request.
+    pub fn new(request: &PlanRequest, answer: &Answer) -> Self {
+        let scene = &request.scene;
+        let blank = Self {
+            verdict: VerdictWord::Graspable,
+            scene_id: request.scene_id.clone(),
+            target: id(scene, scene.target()),
+            relocations: Vec::new(),
+            target_grasp: None,
+            cost: None,
+            lower_bound: None,
+            optimal: None,
+            landmarks: None,
+            deadlock: None,
+            needed: None,
+            warnings: request.warnings.clone(),
+            statistics: StatisticsBody::new(&answer.statistics),
+        };
+        match &answer.verdict {
+            Verdict::Graspable(grasp) => blank.graspable(*grasp),
+            Verdict::Relocate(plan) => blank.relocate(scene, plan),
+            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock),
+            Verdict::NoSpace(unplanned) => blank.unplanned(VerdictWord::NoSpace, scene, unplanned),
+            Verdict::TimedOut(unplanned) => blank.unplanned(VerdictWord::TimedOut, scene, unplanned),
+        }
+    }
+
+    fn graspable(self, grasp: Grasp) -> Self {
+        Self { cost: Some(0), optimal: Some(true), target_grasp: Some(GraspBody::new(grasp)), ..self }
+            .bounded(0, Vec::new())
+    }
+
+    fn relocate(self, scene: &Scene, plan: &Plan) -> Self {
+        let LowerBound { cost, landmarks } = &plan.bound;
+        Self {
+            verdict: VerdictWord::Relocate,
+            relocations: plan.relocations.iter().map(|step| RelocationBody::new(scene, step)).collect(),
+            target_grasp: Some(GraspBody::new(plan.target_grasp)),
+            cost: Some(plan.cost()),
+            optimal: Some(plan.optimal()),
+            ..self
+        }
+        .bounded(*cost, landmarks.iter().map(|set| ids(scene, set)).collect())
+    }
+
+    fn deadlock(self, scene: &Scene, deadlock: &Deadlock) -> Self {
+        let deadlock = DeadlockBody { blocked: ids(scene, &deadlock.blocked), core: ids(scene, &deadlock.core) };
+        Self { verdict: VerdictWord::Deadlock, deadlock: Some(deadlock), ..self }
+    }
+
+    fn unplanned(self, verdict: VerdictWord, scene: &Scene, unplanned: &Unplanned) -> Self {
+        let LowerBound { cost, landmarks } = &unplanned.bound;
+        let needed = unplanned.needed.as_ref().map(|needed| ids(scene, needed));
+        Self { verdict, needed, ..self }.bounded(*cost, landmarks.iter().map(|set| ids(scene, set)).collect())
+    }
+
+    fn bounded(self, lower_bound: usize, landmarks: Vec<Vec<String>>) -> Self {
+        Self { lower_bound: Some(lower_bound), landmarks: Some(landmarks), ..self }
+    }
+}
+
+impl RelocationBody {
+    fn new(scene: &Scene, step: &Relocation) -> Self {
+        Self {
+            action: ActionWord::PickPlace,
+            object: id(scene, step.object),
+            from: PointBody::new(step.from),
+            to: PointBody::new(step.to),
+            grasp: GraspBody::new(step.grasp),
+            release: GraspBody::new(step.release),
+            gap: step.gap,
+        }
+    }
+}
+
+impl PointBody {
+    fn new(point: Point2<f64>) -> Self {
+        Self { x: point.x, y: point.y }
+    }
+}
+
+impl GraspBody {
+    fn new(grasp: Grasp) -> Self {
+        Self { yaw: grasp.yaw, slack: grasp.slack }
+    }
+}
+
+impl StatisticsBody {
+    fn new(statistics: &Statistics) -> Self {
+        let ms = |duration: Duration| duration.as_secs_f64() * 1000.0;
+        Self {
+            knowledge_ms: ms(statistics.knowledge),
+            search_ms: ms(statistics.search),
+            placement_ms: ms(statistics.placement),
+            check_ms: ms(statistics.check),
+        }
+    }
+}
+
+fn id(scene: &Scene, object: ObjectIndex) -> String {
+    scene.object(object).id().to_owned()
+}
+
+fn ids(scene: &Scene, objects: &[ObjectIndex]) -> Vec<String> {
+    objects.iter().map(|object| id(scene, *object)).collect()
+}

@@ -1,0 +1,32 @@
+//! Scene, answer and problem as JSON. No other room knows how they are written.
+//!
+//! A body is read as a JSON value and walked, so that faults of shape are told together with those of meaning, each with
+//! its JSON pointer.
+
+mod answer;
+mod claim;
+mod finding;
+mod problem;
+mod reader;
+mod request;
+mod scene;
+mod stated;
+mod survey;
+mod verification;
+
+pub use answer::{
+    ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord,
+};
+pub use claim::{VerifyRequest, read_plan, read_verify};
+pub use problem::{ErrorItem, Problem, ProblemKind};
+pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
+pub use scene::{
+    GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,
+    SettingsBody, TableBody,
+};
+pub use stated::{PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, VerifyBody};
+pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
+pub use verification::{FaultBody, VerificationBody};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,159 @@
+//! Faults as problem documents (RFC 9457).
+
+use core::fmt;
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// One thing that is wrong with a request, or (in `warnings`) worth knowing about it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct ErrorItem {
+    /// The kind of fault, a word for programs.
+    #[schema(example = "out_of_range")]
+    pub code: &'static str,
+    /// The place in the request body, a JSON pointer (RFC 6901); empty for the body as a whole.
+    #[schema(example = "/objects/3/radius")]
+    pub pointer: String,
+    /// One sentence for people.
+    #[schema(example = "-0.075 is not between 0.000001 and 1000")]
+    pub detail: String,
+}
+
+/// The kinds of problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+pub enum ProblemKind {
+    /// The body is not JSON.
+    #[serde(rename = "urn:singulate:problem:malformed_json")]
+    MalformedJson,
+    /// The body is JSON, but not a request that can be answered.
+    #[serde(rename = "urn:singulate:problem:invalid_request")]
+    InvalidRequest,
+    /// Nothing lives at this path.
+    #[serde(rename = "urn:singulate:problem:not_found")]
+    NotFound,
+    /// The path lives, but not with this method.
+    #[serde(rename = "urn:singulate:problem:method_not_allowed")]
+    MethodNotAllowed,
+    /// No representation that the client accepts.
+    #[serde(rename = "urn:singulate:problem:not_acceptable")]
+    NotAcceptable,
+    /// The body came too slowly.
+    #[serde(rename = "urn:singulate:problem:body_timeout")]
+    BodyTimeout,
+    /// The body is too large.
+    #[serde(rename = "urn:singulate:problem:body_too_large")]
+    BodyTooLarge,
+    /// The body is not declared to be JSON.
+    #[serde(rename = "urn:singulate:problem:unsupported_media_type")]
+    UnsupportedMediaType,
+    /// The connection broke or the transfer was garbled before the body was complete.
+    #[serde(rename = "urn:singulate:problem:broken_body")]
+    BrokenBody,
+    /// Every thread is busy and the queue is full.
+    #[serde(rename = "urn:singulate:problem:overloaded")]
+    Overloaded,
+    /// The service does not take requests now.
+    #[serde(rename = "urn:singulate:problem:not_ready")]
+    NotReady,
+    /// The answer did not pass its own check and is withheld.
+    #[serde(rename = "urn:singulate:problem:check_failed")]
+    CheckFailed,
+    /// A defect of the service.
+    #[serde(rename = "urn:singulate:problem:internal")]
+    Internal,
+}
+
+impl ProblemKind {
+    /// The status code and the title.
+    fn status_and_title(self) -> (u16, &'static str) {
+        match self {
+            Self::MalformedJson => (400, "The body is not JSON"),
+            Self::BrokenBody => (400, "The body is incomplete"),
+            Self::NotFound => (404, "Nothing lives at this path"),
+            Self::MethodNotAllowed => (405, "The method is not allowed here"),
+            Self::NotAcceptable => (406, "No acceptable representation"),
+            Self::BodyTimeout => (408, "The body came too slowly"),
+            Self::BodyTooLarge => (413, "The body is too large"),
+            Self::UnsupportedMediaType => (415, "The body must be JSON"),
+            Self::InvalidRequest => (422, "The request is invalid"),
+            Self::CheckFailed => (500, "The answer did not pass its check"),
+            Self::Internal => (500, "Internal error"),
+            Self::Overloaded => (503, "Overloaded"),
+            Self::NotReady => (503, "Not ready"),
+        }
+    }
+}
+
+/// A problem document: why there is no answer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Problem {
+    /// The kind of problem, a URI for programs.
+    #[serde(rename = "type")]
+    #[schema(inline, example = "urn:singulate:problem:invalid_request")]
+    kind: ProblemKind,
+    /// The kind of problem, for people.
+    #[schema(example = "The request is invalid")]
+    title: &'static str,
+    /// The status code of the response.
+    #[schema(example = 422, minimum = 400, maximum = 599)]
+    status: u16,
+    /// What happened this time.
+    #[schema(example = "1 fault")]
+    detail: String,
+    /// Every fault of the body that was found, 1000 at the most; empty where the body is not to blame.
+    #[schema(max_items = 1000)]
+    errors: Vec<ErrorItem>,
+}
+
+impl Problem {
+    /// A problem of this kind.
+    pub fn new(kind: ProblemKind, detail: impl Into<String>) -> Self {
+        let (status, title) = kind.status_and_title();
+        Self { kind, title, status, detail: detail.into(), errors: Vec::new() }
+    }
+
+    /// A body with these faults.
+    pub(super) fn invalid(errors: Vec<ErrorItem>) -> Self {
+        let detail = if errors.len() == 1 { "1 fault".to_owned() } else { format!("{} faults", errors.len()) };
+        Self::new(ProblemKind::InvalidRequest, detail).with_errors(errors)
+    }
+
+    /// The same problem with these faults.
+    #[must_use]
+    pub(super) fn with_errors(self, errors: Vec<ErrorItem>) -> Self {
+        Self { errors, ..self }
+    }
+
+    /// The kind.
+    pub fn kind(&self) -> ProblemKind {
+        self.kind
+    }
+
+    /// The status code.
+    pub fn status(&self) -> u16 {
+        self.status
+    }
+
+    /// What happened this time.
+    pub fn detail(&self) -> &str {
+        &self.detail
+    }
+
+    /// Every fault of the body that was found.
+    pub fn errors(&self) -> &[ErrorItem] {
+        &self.errors
+    }
+}
+
+impl fmt::Display for Problem {
+    /// The title and the detail, then one line a fault.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.title, self.detail)?;
+        for ErrorItem { code, pointer, detail } in self.errors.iter().filter(|error| !error.pointer.is_empty()) {
+            write!(f, "\n  {pointer}: {detail} ({code})")?;
+        }
+        Ok(())
+    }
+}
+
+impl core::error::Error for Problem {}

@@ -1,0 +1,244 @@
+//! Walks a JSON value, knows where it is, and notes every fault instead of stopping at the first.
+
+use core::fmt;
+
+use serde_json::{Map, Value};
+
+use super::problem::{ErrorItem, Problem, ProblemKind};
+
+/// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
+#[derive(Clone, Copy)]
+pub(super) enum Path<'a> {
+    Root,
+    Field(&'a Path<'a>, &'a str),
+    Item(&'a Path<'a>, usize),
+}
+
+impl<'a> Path<'a> {
+    pub(super) fn field(&'a self, name: &'a str) -> Self {
+        Self::Field(self, name)
+    }
+
+    pub(super) fn item(&'a self, position: usize) -> Self {
+        Self::Item(self, position)
+    }
+}
+
+impl fmt::Display for Path<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Root => Ok(()),
+            Self::Field(parent, name) => write!(f, "{parent}/{}", name.replace('~', "~0").replace('/', "~1")),
+            Self::Item(parent, position) => write!(f, "{parent}/{position}"),
+        }
+    }
+}
+
+/// The most faults that one answer lists: past that nobody reads on.
+pub(super) const MAX_FAULTS: usize = 1000;
+
+/// The faults found so far.
+#[derive(Default)]
+pub(super) struct Faults {
+    items: Vec<ErrorItem>,
+}
+
+impl Faults {
+    pub(super) fn add(&mut self, code: &'static str, path: &Path<'_>, detail: fmt::Arguments<'_>) {
+        if self.items.len() < MAX_FAULTS {
+            self.items.push(ErrorItem { code, pointer: path.to_string(), detail: detail.to_string() });
+        }
+    }
+
+    /// What was read, unless anything is wrong with it.
+    pub(super) fn judge<T>(self, read: Option<T>) -> Result<T, Problem> {
+        match read {
+            Some(value) if self.items.is_empty() => Ok(value),
+            _ => Err(Problem::invalid(self.items)),
+        }
+    }
+}
+
+/// The body as JSON.
+pub(super) fn parse(body: &[u8]) -> Result<Value, Problem> {
+    serde_json::from_slice(body).map_err(|error| {
+        // The reader's message ends with the line and the column.
+        let detail = format!("the body is not JSON: {error}");
+        let item = ErrorItem { code: "malformed_json", pointer: String::new(), detail: detail.clone() };
+        Problem::new(ProblemKind::MalformedJson, detail).with_errors(vec![item])
+    })
+}
+
+/// A value and its place.
+#[derive(Clone, Copy)]
+pub(super) struct Node<'a> {
+    value: &'a Value,
+    path: &'a Path<'a>,
+}
+
+impl<'a> Node<'a> {
+    pub(super) fn root(value: &'a Value) -> Self {
+        Self { value, path: &Path::Root }
+    }
+
+    pub(super) fn path(&self) -> &'a Path<'a> {
+        self.path
+    }
+
+    fn wrong_type<T>(&self, expected: &str, faults: &mut Faults) -> Option<T> {
+        let found = match self.value {
+            Value::Null => "null",
+            Value::Bool(_) => "a boolean",
+            Value::Number(_) => "a number",
+            Value::String(_) => "a string",
+            Value::Array(_) => "an array",
+            Value::Object(_) => "an object",
+        };
+        faults.add("wrong_type", self.path, format_args!("expected {expected}, found {found}"));
+        None
+    }
+
+    /// An object with fields of these names and no others.
+    pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
+        let Value::Object(map) = self.value else { return self.wrong_type("an object", faults) };
+        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())) {
+            let path = self.path.field(name);
+            if names.reserved.contains(&name.as_str()) {
+                faults.add("unknown_field", &path, format_args!("this name is reserved for a later version"));
+            } else {
+                faults.add("unknown_field", &path, format_args!("known here: {}", names.known.join(", ")));
+            }
+        }
+        Some(Fields { map, path: self.path })
+    }
+
+    pub(super) fn number(&self, faults: &mut Faults) -> Option<f64> {
+        let Value::Number(number) = self.value else { return self.wrong_type("a number", faults) };
+        let value = number.as_f64();
+        if value.is_none() {
+            // Only a literal beyond the range of a double has no value.
+            let literal: String = number.as_str().chars().take(40).collect();
+            faults.add("out_of_range", self.path, format_args!("{literal} is greater than any number here may be"));
+        }
+        value
+    }
+
+    /// A whole number from `min` to `max`; 3.0 is one.
+    pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut Faults) -> Option<u64> {
+        let value = self.number(faults)?;
+        if value.fract() != 0.0 {
+            faults.add("not_whole", self.path, format_args!("{value} is not a whole number"));
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number; `as` saturates")]
+        let whole = value as u64;
+        if value < 0.0 || !(min..=max).contains(&whole) {
+            faults.add("out_of_range", self.path, format_args!("{value} is not between {min} and {max}"));
+            return None;
+        }
+        Some(whole)
+    }
+
+    pub(super) fn boolean(&self, faults: &mut Faults) -> Option<bool> {
+        self.value.as_bool().or_else(|| self.wrong_type("a boolean", faults))
+    }
+
+    pub(super) fn text(&self, faults: &mut Faults) -> Option<String> {
+        self.value.as_str().map(str::to_owned).or_else(|| self.wrong_type("a string", faults))
+    }
+
+    /// One of a few words.
+    pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+        let Value::String(text) = self.value else { return self.wrong_type("a string", faults) };
+        let choice = choices.iter().find(|(word, _)| word == text).map(|(_, value)| *value);
+        if choice.is_none() {
+            let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
+            faults.add("unknown_value", self.path, format_args!("'{text}' is none of: {}", words.join(", ")));
+        }
+        choice
+    }
+
+    /// A list. An item that can't be read keeps its place as the default value: its fault has been noted.
+    pub(super) fn list<T: Default>(
+        &self,
+        faults: &mut Faults,
+        read: impl Fn(Node<'_>, &mut Faults) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let Value::Array(values) = self.value else { return self.wrong_type("an array", faults) };
+        let items = values.iter().enumerate().map(|(position, value)| {
+            let path = self.path.item(position);
+            read(Node { value, path: &path }, faults).unwrap_or_default()
+        });
+        Some(items.collect())
+    }
+}
+
+/// The names that the fields of an object may have.
+pub(super) struct Names {
+    pub(super) known: &'static [&'static str],
+    pub(super) reserved: &'static [&'static str],
+}
+
+impl Names {
+    pub(super) const fn of(known: &'static [&'static str]) -> Self {
+        Self { known, reserved: &[] }
+    }
+}
+
+/// The fields of an object.
+#[derive(Clone, Copy)]
+pub(super) struct Fields<'a> {
+    map: &'a Map<String, Value>,
+    path: &'a Path<'a>,
+}
+
+impl Fields<'_> {
+    /// A field that must be there.
+    pub(super) fn required<T>(
+        &self,
+        name: &'static str,
+        faults: &mut Faults,
+        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+    ) -> Option<T> {
+        let path = self.path.field(name);
+        let Some(value) = self.map.get(name) else {
+            faults.add("missing", &path, format_args!("the field '{name}' is required"));
+            return None;
+        };
+        read(Node { value, path: &path }, faults)
+    }
+
+    /// A field that may be absent or null, and means `default` then. `None` only where it is there and unreadable.
+    pub(super) fn optional<T>(
+        &self,
+        name: &'static str,
+        default: T,
+        faults: &mut Faults,
+        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+    ) -> Option<T> {
+        match self.map.get(name) {
+            None | Some(Value::Null) => Some(default),
+            Some(value) => read(Node { value, path: &self.path.field(name) }, faults),
+        }
+    }
+
+    /// A field that may be absent or null. `None` also where it is unreadable: its fault has been noted.
+    pub(super) fn stated<T>(
+        &self,
+        name: &'static str,
+        faults: &mut Faults,
+        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+    ) -> Option<T> {
+        self.optional(name, None, faults, |node, faults| read(node, faults).map(Some)).flatten()
+    }
+
+    /// True if the field is there and not null.
+    pub(super) fn states(&self, name: &'static str) -> bool {
+        self.map.get(name).is_some_and(|value| !value.is_null())
+    }
+
+    /// A number that must be there.
+    pub(super) fn number(&self, name: &'static str, faults: &mut Faults) -> Option<f64> {
+        self.required(name, faults, |node, faults| node.number(faults))
+    }
+}

@@ -1,0 +1,177 @@
+//! A planning request read from JSON.
+
+use core::time::Duration;
+
+use super::finding;
+use super::problem::{ErrorItem, Problem};
+use super::reader::{Faults, Names, Node, parse};
+use crate::plan::{Objective, Settings};
+use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
+
+/// The longest scene id, characters: it stands in every log line of its request.
+pub const MAX_SCENE_ID_LENGTH: usize = 256;
+
+/// What a request may ask for at the most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RequestLimits {
+    /// The limits of a scene.
+    pub scene: SceneLimits,
+    /// The time limit of a request that names none.
+    pub default_time_limit: Duration,
+    /// The longest time limit that a request may name.
+    pub max_time_limit: Duration,
+}
+
+impl Default for RequestLimits {
+    fn default() -> Self {
+        Self {
+            scene: SceneLimits::default(),
+            default_time_limit: Duration::from_millis(1000),
+            max_time_limit: Duration::from_millis(60_000),
+        }
+    }
+}
+
+/// A checked request.
+#[derive(Debug, Clone)]
+pub struct PlanRequest {
+    /// The scene.
+    pub scene: Scene,
+    /// The caller's name for it.
+    pub scene_id: Option<String>,
+    /// How to plan.
+    pub settings: Settings,
+    /// The time for waiting and planning.
+    pub time_limit: Duration,
+    /// What is worth knowing about the scene.
+    pub warnings: Vec<ErrorItem>,
+}
+
+impl AsRef<PlanRequest> for PlanRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        self
+    }
+}
+
+/// Read a planning request.
+///
+/// # Errors
+/// A problem with every fault of the body.
+pub fn read_scene(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
+    let value = parse(body)?;
+    let mut faults = Faults::default();
+    let request = request(Node::root(&value), limits, &mut faults);
+    faults.judge(request)
+}
+
+const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
+const TABLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
+const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
+const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
+// A later version may know objects that are no discs.
+const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
+const SETTINGS: Names = Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms"]);
+
+pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
+    let fields = node.fields(&REQUEST, faults)?;
+    let scene_id = fields.optional("scene_id", None, faults, scene_id);
+    let table = fields.required("table", faults, table);
+    let gripper = fields.required("gripper", faults, gripper);
+    let objects = fields.required("objects", faults, |node, faults| node.list(faults, object));
+    let target = fields.required("target", faults, |node, faults| node.text(faults));
+    let default = (Settings::default(), limits.default_time_limit.min(limits.max_time_limit));
+    let settings = fields.optional("settings", default, faults, |node, faults| settings(node, default, limits, faults));
+    let draft = SceneDraft {
+        table: table.unwrap_or_default(),
+        gripper: gripper.unwrap_or_default(),
+        // Without a list of objects nobody can say that the target is not in it.
+        target: target.filter(|_| objects.is_some()),
+        objects: objects.unwrap_or_default(),
+    };
+    match Scene::new(draft, &limits.scene) {
+        Ok((scene, warnings)) => {
+            let warnings = warnings.iter().map(|warning| finding::item(node.path(), warning)).collect();
+            let (settings, time_limit) = settings?;
+            Some(PlanRequest { scene, scene_id: scene_id?, settings, time_limit, warnings })
+        }
+        Err(findings) => {
+            findings.iter().for_each(|fault| finding::note(node.path(), fault, faults));
+            None
+        }
+    }
+}
+
+fn scene_id(node: Node<'_>, faults: &mut Faults) -> Option<Option<String>> {
+    let text = node.text(faults)?;
+    let length = text.chars().count();
+    if length > MAX_SCENE_ID_LENGTH {
+        let detail = format_args!("a scene id has at most {MAX_SCENE_ID_LENGTH} characters, this one has {length}");
+        faults.add("id_length", node.path(), detail);
+        return None;
+    }
+    Some(Some(text))
+}
+
+fn table(node: Node<'_>, faults: &mut Faults) -> Option<TableDraft> {
+    let fields = node.fields(&TABLE, faults)?;
+    let top = RectangleDraft {
+        x_min: fields.number("x_min", faults),
+        y_min: fields.number("y_min", faults),
+        x_max: fields.number("x_max", faults),
+        y_max: fields.number("y_max", faults),
+    };
+    let keep_out = fields.optional("keep_out", Vec::new(), faults, |node, faults| node.list(faults, rectangle));
+    Some(TableDraft { top, keep_out: keep_out.unwrap_or_default() })
+}
+
+fn rectangle(node: Node<'_>, faults: &mut Faults) -> Option<RectangleDraft> {
+    let fields = node.fields(&RECTANGLE, faults)?;
+    Some(RectangleDraft {
+        x_min: fields.number("x_min", faults),
+        y_min: fields.number("y_min", faults),
+        x_max: fields.number("x_max", faults),
+        y_max: fields.number("y_max", faults),
+    })
+}
+
+fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
+    let fields = node.fields(&GRIPPER, faults)?;
+    Some(GripperDraft {
+        fingers: fields.number("fingers", faults),
+        finger_width: fields.number("finger_width", faults),
+        clearance: fields.number("clearance", faults),
+        margin: fields.optional("margin", 0.0, faults, |node, faults| node.number(faults)),
+        yaw_tolerance: fields.optional("yaw_tolerance", 0.0, faults, |node, faults| node.number(faults)),
+    })
+}
+
+fn object(node: Node<'_>, faults: &mut Faults) -> Option<ObjectDraft> {
+    let fields = node.fields(&OBJECT, faults)?;
+    Some(ObjectDraft {
+        id: fields.required("id", faults, |node, faults| node.text(faults)),
+        x: fields.number("x", faults),
+        y: fields.number("y", faults),
+        radius: fields.number("radius", faults),
+        fixed: fields.stated("fixed", faults, |node, faults| node.boolean(faults)).unwrap_or_default(),
+    })
+}
+
+fn settings(
+    node: Node<'_>,
+    (default, default_limit): (Settings, Duration),
+    limits: &RequestLimits,
+    faults: &mut Faults,
+) -> Option<(Settings, Duration)> {
+    let fields = node.fields(&SETTINGS, faults)?;
+    for (name, only) in [("grasp_model", "swept_finger"), ("search", "landmarks"), ("placement", "exact")] {
+        fields.stated(name, faults, |node, faults| node.word(&[(only, ())], faults));
+    }
+    let objectives = [("far_from_target", Objective::FarFromTarget), ("short_moves", Objective::ShortMoves)];
+    let objective =
+        fields.optional("objective", default.objective, faults, |node, faults| node.word(&objectives, faults));
+    let max = u64::try_from(limits.max_time_limit.as_millis()).unwrap_or(u64::MAX);
+    let time_limit = fields.optional("time_limit_ms", default_limit, faults, |node, faults| {
+        node.whole((1, max), faults).map(Duration::from_millis)
+    });
+    Some((Settings { objective: objective? }, time_limit?))
+}

@@ -1,0 +1,77 @@
+//! A survey as JSON.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use crate::plan::{SurveyEntry, SurveyVerdict};
+use crate::scene::Scene;
+
+/// Every movable object as the target. Logic only: places for the relocated objects are not sought.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct SurveyBody {
+    /// The movable objects, in the order of the request.
+    pub objects: Vec<SurveyedObject>,
+}
+
+/// One object as the target.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct SurveyedObject {
+    /// The object's id.
+    #[schema(example = "plate-1")]
+    pub id: String,
+    /// What holds for it as the target.
+    #[schema(inline, example = "relocate")]
+    pub verdict: SurveyWord,
+    /// No plan has fewer relocations, proven; null for a deadlock.
+    #[schema(required = true, example = 2)]
+    pub lower_bound: Option<usize>,
+    /// True if that many relocations suffice, places apart; null for a deadlock.
+    #[schema(required = true, example = true)]
+    pub optimal: Option<bool>,
+}
+
+/// What holds for one object as the target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SurveyWord {
+    /// It can be grasped as the table stands.
+    Graspable,
+    /// Some set of relocations frees it, if places for them are found.
+    Relocate,
+    /// Nothing frees it.
+    Deadlock,
+    /// Not decided in time.
+    TimedOut,
+}
+
+impl SurveyBody {
+    /// The survey of a scene.
+    pub fn new(scene: &Scene, entries: &[SurveyEntry]) -> Self {
+        Self { objects: entries.iter().map(|entry| SurveyedObject::new(scene, entry)).collect() }
+    }
+
+    /// The survey that knows nothing yet of any movable object: what is left to say when time ran out before it began.
+    pub fn timed_out(scene: &Scene) -> Self {
+        let movable = scene.objects().iter().filter(|object| !object.fixed());
+        let objects = movable.map(|object| SurveyedObject {
+            id: object.id().to_owned(),
+            verdict: SurveyWord::TimedOut,
+            lower_bound: Some(0),
+            optimal: Some(false),
+        });
+        Self { objects: objects.collect() }
+    }
+}
+
+impl SurveyedObject {
+    fn new(scene: &Scene, entry: &SurveyEntry) -> Self {
+        let verdict = match entry.verdict {
+            SurveyVerdict::Graspable => SurveyWord::Graspable,
+            SurveyVerdict::Relocate => SurveyWord::Relocate,
+            SurveyVerdict::Deadlock => SurveyWord::Deadlock,
+            SurveyVerdict::TimedOut => SurveyWord::TimedOut,
+        };
+        let id = scene.object(entry.object).id().to_owned();
+        Self { id, verdict, lower_bound: entry.lower_bound, optimal: entry.optimal }
+    }
+}
