@@ -5,3 +5,4 @@ mod limits;
 mod physics;
 mod proofs;
 mod scenes;
+mod served;

@@ -43,6 +43,9 @@ fn no_landmarks_prove_nothing() {
     expect(&scene, &Claim { lower_bound: Some(0), ..Claim::default() }, &[]);
     expect(&scene, &Claim { lower_bound: Some(1), ..Claim::default() }, &[BoundUnproven]);
     expect(&scene, &Claim { optimal: Some(true), ..Claim::default() }, &[UnexpectedPart]);
+    // Without a plan there is no cost that a bound could meet.
+    let unplanned = Claim { relocations: Some(Vec::new()), optimal: Some(false), ..bound(0, &[]) };
+    expect(&scene, &unplanned, &[]);
 }
 
 #[test]

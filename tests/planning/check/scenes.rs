@@ -93,8 +93,12 @@ pub(crate) fn judge(scene: &Scene, claim: &Claim) -> Report {
 
 /// The kinds of fault found, each once, in the order in which they came.
 pub(crate) fn codes(report: &Report) -> Vec<FaultCode> {
-    let mut codes: Vec<FaultCode> = report.faults.iter().map(|fault| fault.code).collect();
-    codes.dedup();
+    let mut codes: Vec<FaultCode> = Vec::new();
+    for fault in &report.faults {
+        if !codes.contains(&fault.code) {
+            codes.push(fault.code);
+        }
+    }
     codes
 }
 
