@@ -17,16 +17,20 @@ pub enum PlanError {
 /// The verdict as far as the checker confirms it. What it could not confirm in time is not claimed.
 pub(super) fn confirm(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> Result<Verdict, PlanError> {
     let answer = Answer { verdict, statistics: Statistics::default() };
-    let report = check(scene, &Claim::of(scene, &answer), budget);
+    let mut claim = Claim::of(scene, &answer);
+    // A search that was cut off may have landmarks that prove more than it had time to see: not a fault, a better bound.
+    claim.optimal.take_if(|optimal| !*optimal);
+    let report = check(scene, &claim, budget);
     let late = |fault: &Fault| is_late(fault.code);
     if report.faults.iter().any(|fault| !late(fault)) {
         return Err(PlanError::Refused(report));
     }
     let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
     let mut verdict = answer.verdict;
-    if let Some(bound) = verdict.bound_mut()
-        && unconfirmed(FaultCode::BoundUnconfirmed)
-    {
+    if let Some(bound) = verdict.bound_mut() {
+        if unconfirmed(FaultCode::BoundUnconfirmed) {
+            bound.landmarks.clone_from(&report.sound_landmarks);
+        }
         bound.cost = report.proven_bound;
     }
     if unconfirmed(FaultCode::LockUnconfirmed) || unconfirmed(FaultCode::ReplayUnconfirmed) {

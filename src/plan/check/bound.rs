@@ -12,12 +12,14 @@ use super::meter::Meter;
 use super::names::Names;
 
 /// The proven bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Proof {
     /// No plan has fewer relocations.
     pub(super) bound: usize,
     /// True if time sufficed: then the landmarks prove no more than `bound`.
     pub(super) complete: bool,
+    /// The landmarks found sound, none within another: they alone prove `bound`.
+    pub(super) sound: Vec<Vec<ObjectIndex>>,
 }
 
 /// A landmark that can be tried: sorted members, and its position in the answer.
@@ -44,7 +46,7 @@ pub(super) fn prove(
     complete &= tried.is_ok();
     let (sets, width) = sound.numbered();
     let hits = least_hits(sets, width, meter);
-    Proof { bound: hits.at_least, complete: complete && hits.exact }
+    Proof { bound: hits.at_least, complete: complete && hits.exact, sound: sound.landmarks }
 }
 
 /// The landmarks whose members exist and could be moved, smallest first.

@@ -1,5 +1,7 @@
 //! What can be wrong with a stated answer, as data.
 
+use crate::scene::ObjectIndex;
+
 /// One thing that is wrong with a stated answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
@@ -120,6 +122,8 @@ pub struct Report {
     pub faults: Vec<Fault>,
     /// The greatest bound that the landmarks prove, as far as time allowed.
     pub proven_bound: usize,
+    /// The stated landmarks that were seen to hold, none within another: they alone prove `proven_bound`.
+    pub sound_landmarks: Vec<Vec<ObjectIndex>>,
     /// True if the budget ended before everything was checked.
     pub interrupted: bool,
 }

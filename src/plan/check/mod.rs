@@ -61,5 +61,10 @@ pub fn check(scene: &Scene, claim: &Claim, budget: &Budget<'_>) -> Report {
     claims::bounds(claim, &proof, &mut faults);
 
     let unfinished = replayed.is_err() || locked.is_err() || needed.is_err() || !proof.complete;
-    Report { faults: faults.into_vec(), proven_bound: proof.bound, interrupted: unfinished }
+    Report {
+        faults: faults.into_vec(),
+        proven_bound: proof.bound,
+        sound_landmarks: proof.sound,
+        interrupted: unfinished,
+    }
 }
