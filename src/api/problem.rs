@@ -44,9 +44,9 @@ pub(super) fn refused(refused: Refused) -> Problem {
     Problem::new(kind, refused.to_string())
 }
 
-/// The planner failed: log all that is needed to see it fail again.
+/// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
 pub(super) fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
-    let PlanError::Refused(report) = error;
+    let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
     let scene = serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default();
     tracing::error!(%scene, settings = ?request.settings, faults = ?report.faults, "an answer failed its check");
     Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")

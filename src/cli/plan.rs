@@ -1,6 +1,6 @@
 //! `singulate plan`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -9,7 +9,7 @@ use super::stopwatch::Stopwatch;
 use super::{Failure, configure, input, output, text};
 use crate::budget::Budget;
 use crate::plan::PlanError;
-use crate::wire::{AnswerBody, VerificationBody};
+use crate::wire::{AnswerBody, Problem, VerificationBody};
 use crate::{plan, render};
 
 /// The arguments of `plan`.
@@ -38,7 +38,8 @@ impl Plan {
         let request = input::scene(&self.scene, &config.server.limits)?;
         let clock = Stopwatch::start();
         let budget = Budget::new(&clock, request.time_limit);
-        let answer = plan::plan(&request.scene, &request.settings, &budget).map_err(|error| withheld(&error))?;
+        let answer =
+            plan::plan(&request.scene, &request.settings, &budget).map_err(|error| failed(&self.scene, &error))?;
         match self.format {
             Format::Json => output::print_json(&AnswerBody::new(&request, &answer)),
             Format::Text => output::print(&text::answer(&request, &answer)),
@@ -47,9 +48,12 @@ impl Plan {
     }
 }
 
-/// The planner's answer failed its check: a bug, told with what the checker found.
-pub(super) fn withheld(error: &PlanError) -> Failure {
-    let PlanError::Refused(report) = error;
+/// There is no answer: the scene is too dense, or the planner's answer failed its check, a bug told with what the checker
+/// found.
+pub(super) fn failed(scene: &Path, error: &PlanError) -> Failure {
+    let PlanError::Refused(report) = error else {
+        return input::refused(scene, &Problem::too_dense(error.to_string()));
+    };
     let mut lines = vec![error.to_string()];
     lines.extend(VerificationBody::new(report).faults.iter().map(text::fault));
     Failure::Broken(lines.join("\n"))

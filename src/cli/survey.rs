@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::flags::Flags;
-use super::plan::withheld;
+use super::plan::failed;
 use super::stopwatch::Stopwatch;
 use super::verify::Format;
 use super::{Failure, configure, input, output, text};
@@ -31,7 +31,7 @@ impl Survey {
         let request = input::scene(&self.scene, &config.server.limits)?;
         let clock = Stopwatch::start();
         let entries = survey(&request.scene, &Budget::new(&clock, request.time_limit));
-        let entries = entries.map_err(|error| withheld(&error))?;
+        let entries = entries.map_err(|error| failed(&self.scene, &error))?;
         match self.format {
             Format::Json => output::print_json(&SurveyBody::new(&request.scene, &entries)),
             Format::Text => output::print(&text::survey(&request.scene, &entries)),

@@ -28,6 +28,23 @@ impl KnowledgeBase {
         self.first_rule.push(offset(self.first_member.len() - 1));
     }
 
+    /// The base of `count` objects in which object `order[n]` has the options that object n has here, and all others none.
+    pub(super) fn renumbered(&self, order: &[ObjectIndex], count: usize) -> Self {
+        let mut position = vec![None; count];
+        order.iter().zip(self.objects()).for_each(|(object, here)| position[object.get()] = Some(here));
+        let mut base = Self::new();
+        base.members.reserve_exact(self.size());
+        base.first_member.reserve_exact(self.rules());
+        for here in position {
+            for rule in here.into_iter().flat_map(|here| self.rules_of(here)) {
+                base.members.extend_from_slice(self.body(rule));
+                base.first_member.push(offset(base.members.len()));
+            }
+            base.first_rule.push(offset(base.rules()));
+        }
+        base
+    }
+
     /// The number of objects.
     pub fn len(&self) -> usize {
         self.first_rule.len() - 1

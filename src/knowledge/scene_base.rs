@@ -6,15 +6,39 @@ use crate::budget::{Budget, Interrupted};
 use crate::geometry::shadow;
 use crate::scene::{ObjectIndex, Scene};
 
+/// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base of
+/// this size takes a few dozen megabytes, and search as much again.
+pub const MAX_BASE_SIZE: usize = 1_000_000;
+
+/// Why there is no base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoBase {
+    /// The budget ended first.
+    #[error("interrupted")]
+    Interrupted,
+    /// The base would be larger than [`MAX_BASE_SIZE`].
+    #[error("the options of all objects have more than {MAX_BASE_SIZE} members together")]
+    TooLarge,
+}
+
+impl From<Interrupted> for NoBase {
+    fn from(Interrupted: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
 /// The base of every movable object.
 ///
 /// # Errors
-/// [`Interrupted`] when the budget ends.
-pub fn complete(scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, Interrupted> {
+/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+pub fn complete(scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
     let mut base = KnowledgeBase::new();
     for object in scene.indices() {
         budget.check()?;
         base.push(options(scene, object));
+        if base.size() > MAX_BASE_SIZE {
+            return Err(NoBase::TooLarge);
+        }
     }
     Ok(base)
 }
@@ -23,23 +47,27 @@ pub fn complete(scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, Int
 /// All others have no option here, which changes nothing, for no rule that matters names them.
 ///
 /// # Errors
-/// [`Interrupted`] when the budget ends.
-pub fn relevant(scene: &Scene, target: ObjectIndex, budget: &Budget<'_>) -> Result<KnowledgeBase, Interrupted> {
-    let mut options_of: Vec<Option<Vec<Vec<ObjectIndex>>>> = vec![None; scene.objects().len()];
-    let mut open = vec![target];
-    options_of[target.get()] = Some(Vec::new());
-    while let Some(object) = open.pop() {
+/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+pub fn relevant(scene: &Scene, target: ObjectIndex, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+    let count = scene.objects().len();
+    // In the order in which they are reached; sorted into the base at the end.
+    let mut reached = KnowledgeBase::new();
+    let mut seen = vec![false; count];
+    seen[target.get()] = true;
+    let mut order = vec![target];
+    while let Some(&object) = order.get(reached.len()) {
         budget.check()?;
-        let found = options(scene, object);
-        for &member in found.iter().flatten() {
-            if options_of[member.get()].is_none() {
-                options_of[member.get()] = Some(Vec::new());
-                open.push(member);
+        reached.push(options(scene, object));
+        for &member in reached.options(ObjectIndex::new(reached.len() - 1)).flatten() {
+            if !core::mem::replace(&mut seen[member.get()], true) {
+                order.push(member);
             }
         }
-        options_of[object.get()] = Some(found);
+        if reached.size() > MAX_BASE_SIZE {
+            return Err(NoBase::TooLarge);
+        }
     }
-    Ok(options_of.into_iter().map(Option::unwrap_or_default).collect())
+    Ok(reached.renumbered(&order, count))
 }
 
 /// The fixed objects that block a member at some yaw, in index order.

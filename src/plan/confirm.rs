@@ -4,6 +4,7 @@ use super::answer::{Answer, Statistics, Unplanned, Verdict};
 use super::check::{Fault, FaultCode, Report, check};
 use super::claim::Claim;
 use crate::budget::Budget;
+use crate::knowledge::NoBase;
 use crate::scene::Scene;
 
 /// The planner failed.
@@ -12,6 +13,10 @@ pub enum PlanError {
     /// The checker refused the planner's own answer: a bug. The answer is not served.
     #[error("the answer did not pass its check")]
     Refused(Report),
+    /// The objects stand too dense: their knowledge base would be larger than the limit
+    /// ([`MAX_BASE_SIZE`](crate::knowledge::MAX_BASE_SIZE)).
+    #[error("{}", NoBase::TooLarge)]
+    TooDense,
 }
 
 /// The verdict as far as the checker confirms it. What it could not confirm in time is not claimed.

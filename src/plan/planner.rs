@@ -7,7 +7,7 @@ use super::confirm::{PlanError, confirm};
 use super::couple::{Question, arrange_least, arrange_one};
 use super::settings::Settings;
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{Closure, KnowledgeBase, Lock, close, complete, fixed_blockers, lock, relevant};
+use crate::knowledge::{Closure, KnowledgeBase, Lock, NoBase, close, complete, fixed_blockers, lock, relevant};
 use crate::placement::{Arrangement, grasp_in_place};
 use crate::scene::Scene;
 use crate::search::{LeastSet, Outcome, Restriction, least};
@@ -20,10 +20,10 @@ const PLACEMENT_SHARE: f64 = 0.75;
 /// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
 ///
 /// # Errors
-/// [`PlanError::Refused`] if the answer fails its check.
+/// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if the answer fails its check.
 pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
     let mut statistics = Statistics::default();
-    let verdict = Planner { scene, settings, budget, statistics: &mut statistics }.verdict();
+    let verdict = Planner { scene, settings, budget, statistics: &mut statistics }.verdict()?;
     let before = budget.elapsed();
     let verdict = confirm(scene, verdict, budget)?;
     statistics.check = budget.elapsed().saturating_sub(before);
@@ -38,24 +38,28 @@ struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    fn verdict(&mut self) -> Verdict {
+    fn verdict(&mut self) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
         let search_budget = self.budget.share(SEARCH_SHARE);
         let target = self.scene.target();
         let base = relevant(self.scene, target, &search_budget);
         self.statistics.knowledge = self.since(started);
-        let Ok(base) = base else { return Verdict::TimedOut(Unplanned::default()) };
+        let base = match base {
+            Ok(base) => base,
+            Err(NoBase::Interrupted) => return Ok(Verdict::TimedOut(Unplanned::default())),
+            Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
+        };
         if base.options(target).any(<[_]>::is_empty) {
-            return graspable_now(self.scene);
+            return Ok(graspable_now(self.scene));
         }
         let started = self.budget.elapsed();
         let outcome = least(&base, target, &Restriction::default(), &search_budget);
         self.statistics.search = self.since(started);
         match outcome {
             Outcome::Underivable => self.deadlock(),
-            Outcome::Interrupted(None) => Verdict::TimedOut(Unplanned::default()),
-            Outcome::Interrupted(Some(known)) => self.place(&base, known, false),
-            Outcome::Least(known) => self.place(&base, known, true),
+            Outcome::Interrupted(None) => Ok(Verdict::TimedOut(Unplanned::default())),
+            Outcome::Interrupted(Some(known)) => Ok(self.place(&base, known, false)),
+            Outcome::Least(known) => Ok(self.place(&base, known, true)),
         }
     }
 
@@ -63,7 +67,7 @@ impl Planner<'_> {
         self.budget.elapsed().saturating_sub(started)
     }
 
-    fn deadlock(&mut self) -> Verdict {
+    fn deadlock(&mut self) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
         let budget = self.budget.share(PLACEMENT_SHARE);
         // The relevant part of the base would show a lock, but not the greatest.
@@ -72,7 +76,11 @@ impl Planner<'_> {
             Ok(greatest_lock(self.scene, &base, &closure, &budget))
         });
         self.statistics.knowledge += self.since(started);
-        found.map_or_else(|Interrupted| Verdict::TimedOut(Unplanned::default()), Verdict::Deadlock)
+        match found {
+            Ok(lock) => Ok(Verdict::Deadlock(lock)),
+            Err(NoBase::Interrupted) => Ok(Verdict::TimedOut(Unplanned::default())),
+            Err(NoBase::TooLarge) => Err(PlanError::TooDense),
+        }
     }
 
     fn place(&mut self, base: &KnowledgeBase, known: LeastSet, exact: bool) -> Verdict {

@@ -4,7 +4,7 @@ use super::answer::{LowerBound, Unplanned, Verdict};
 use super::confirm::{PlanError, confirm};
 use super::planner::{graspable_now, greatest_lock};
 use crate::budget::Budget;
-use crate::knowledge::{Closure, KnowledgeBase, close, complete};
+use crate::knowledge::{Closure, KnowledgeBase, NoBase, close, complete};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Outcome, Restriction, least};
 
@@ -37,11 +37,15 @@ pub struct SurveyEntry {
 /// Every movable object as the target, in index order. What the budget leaves undecided is `TimedOut`.
 ///
 /// # Errors
-/// [`PlanError::Refused`] if an entry's proof fails its check.
+/// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if an entry's proof fails its check.
 pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
     let movable = scene.indices().filter(|&object| !scene.object(object).fixed());
     let known = complete(scene, budget).and_then(|base| Ok((close(&base, |_| false, budget)?, base)));
-    let Ok((closure, base)) = known else { return Ok(movable.map(timed_out).collect()) };
+    let (closure, base) = match known {
+        Ok(known) => known,
+        Err(NoBase::Interrupted) => return Ok(movable.map(timed_out).collect()),
+        Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
+    };
     let mut surveyor = Surveyor { scene, base: &base, closure: &closure, locked: None };
     movable.map(|object| surveyor.entry(object, budget)).collect()
 }

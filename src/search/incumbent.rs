@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::chain::Chain;
 use super::problem::{Node, Problem};
+use crate::budget::Budget;
 
 /// A derivation by the additive estimate: an object costs one more than the members of its cheapest option together.
 /// Dijkstra's algorithm in Knuth's generalisation, then the support of the target.
@@ -48,8 +49,9 @@ pub(super) fn greedy(problem: &Problem) -> Vec<Node> {
 }
 
 /// An inclusion-minimal part of `set` that still derives the target, in an order in which its members can be moved;
-/// `None` if `set` does not derive it. Nodes far from the target are left out first.
-pub(super) fn derivation(problem: &Problem, set: &[Node]) -> Option<Vec<Node>> {
+/// `None` if `set` does not derive it. Nodes far from the target are left out first. Where the budget ends, the part
+/// reached so far.
+pub(super) fn derivation(problem: &Problem, set: &[Node], budget: &Budget<'_>) -> Option<Vec<Node>> {
     let run = |set: &[Node], without: Option<Node>| {
         let mut chain = Chain::new(problem);
         set.iter().filter(|&&node| Some(node) != without).for_each(|&node| chain.allow(node));
@@ -59,6 +61,9 @@ pub(super) fn derivation(problem: &Problem, set: &[Node]) -> Option<Vec<Node>> {
     let mut by_distance = moved.clone();
     by_distance.sort_unstable();
     for node in by_distance {
+        if budget.check().is_err() {
+            break;
+        }
         if moved.contains(&node)
             && let Some(fewer) = run(&moved, Some(node))
         {

@@ -59,7 +59,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
         let Some(node) = problem.node(object) else { return Outcome::Underivable };
         required.push(node);
     }
-    let mut search = Search::new(&problem, required);
+    let mut search = Search::new(&problem, required, budget);
     match search.run(budget) {
         Ok(()) => Outcome::Least(search.known()),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known())),
@@ -77,11 +77,11 @@ struct Search<'p> {
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, required: Vec<Node>) -> Self {
+    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Self {
         let landmarks = required.iter().map(|&node| vec![node]).collect();
         let mut search =
             Self { problem, chain: Chain::new(problem), landmarks, bound: required.len(), required, best: Vec::new() };
-        search.best = search.minimal(&incumbent::greedy(problem));
+        search.best = search.minimal(&incumbent::greedy(problem), budget);
         search
     }
 
@@ -143,7 +143,7 @@ impl<'p> Search<'p> {
         if result.is_ok() {
             // What was learnt in one go is disjoint from the candidate and from each other.
             let candidates: Vec<Node> = (0..self.problem.target()).filter(|&n| self.chain.is_allowed(n)).collect();
-            let minimal = self.minimal(&candidates);
+            let minimal = self.minimal(&candidates, budget);
             if minimal.len() < self.best.len() {
                 self.best = minimal;
             }
@@ -153,9 +153,10 @@ impl<'p> Search<'p> {
     }
 
     /// A minimal derivation within the set, plus what is required.
-    fn minimal(&self, set: &[Node]) -> Vec<Node> {
+    fn minimal(&self, set: &[Node], budget: &Budget<'_>) -> Vec<Node> {
         let with_required: Vec<Node> = set.iter().chain(&self.required).copied().collect();
-        let mut order = incumbent::derivation(self.problem, &with_required).unwrap_or_else(|| with_required.clone());
+        let mut order =
+            incumbent::derivation(self.problem, &with_required, budget).unwrap_or_else(|| with_required.clone());
         let missing: Vec<Node> = self.required.iter().copied().filter(|node| !order.contains(node)).collect();
         order.extend(missing);
         order

@@ -122,6 +122,11 @@ impl Problem {
         Self::new(ProblemKind::InvalidRequest, detail).with_errors(errors)
     }
 
+    /// A scene that is in order, but too dense to be planned for within the limits on memory.
+    pub fn too_dense(detail: String) -> Self {
+        Self::invalid(vec![ErrorItem { code: "too_dense", pointer: "/objects".to_owned(), detail }])
+    }
+
     /// The same problem with these faults.
     #[must_use]
     pub(super) fn with_errors(self, errors: Vec<ErrorItem>) -> Self {
