@@ -1,14 +1,18 @@
 //! The `singulate` binary.
 
-use singulate::api::{ServerSettings, run};
-use tokio::net::TcpListener;
+use std::io::Write;
+use std::process::ExitCode;
 
-#[tokio::main]
-async fn main() -> std::io::Result<()> {
-    let listener = TcpListener::bind("127.0.0.1:8080").await?;
-    run(listener, ServerSettings::default(), async {
-        // Without a handler for the signal only killing ends the process.
-        let _ = tokio::signal::ctrl_c().await;
-    })
-    .await
+use clap::Parser;
+use singulate::cli::Cli;
+
+fn main() -> ExitCode {
+    match Cli::parse().run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Nobody can be told where stderr is gone.
+            let _ = writeln!(std::io::stderr(), "{failure}");
+            ExitCode::from(failure.exit_code())
+        }
+    }
 }

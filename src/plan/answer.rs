@@ -2,35 +2,9 @@
 
 use core::time::Duration;
 
-use nalgebra::Point2;
-
+use crate::geometry::Grasp;
+use crate::placement::Relocation;
 use crate::scene::ObjectIndex;
-
-/// A yaw that is free, with the room round it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grasp {
-    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
-    pub yaw: f64,
-    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
-    pub slack: f64,
-}
-
-/// One pick-and-place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Relocation {
-    /// What is moved; never the target, never a fixed object.
-    pub object: ObjectIndex,
-    /// Its centre before, m.
-    pub from: Point2<f64>,
-    /// Its centre after, m.
-    pub to: Point2<f64>,
-    /// How it is picked.
-    pub grasp: Grasp,
-    /// How it is let go.
-    pub release: Grasp,
-    /// Least distance to another object at the new place, edge to edge, m.
-    pub gap: f64,
-}
 
 /// The fewest relocations that any plan needs, as far as it is proven.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -116,5 +90,16 @@ impl Plan {
     /// True if no plan has fewer relocations.
     pub fn optimal(&self) -> bool {
         self.cost() == self.bound.cost
+    }
+}
+
+impl Verdict {
+    /// The bound, where the verdict has one to prove.
+    pub(super) fn bound_mut(&mut self) -> Option<&mut LowerBound> {
+        match self {
+            Self::Relocate(plan) => Some(&mut plan.bound),
+            Self::NoSpace(rest) | Self::TimedOut(rest) => Some(&mut rest.bound),
+            Self::Graspable(_) | Self::Deadlock(_) => None,
+        }
     }
 }

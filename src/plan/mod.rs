@@ -3,10 +3,18 @@
 mod answer;
 pub mod check;
 mod claim;
+mod confirm;
+mod couple;
 mod planner;
 mod settings;
+mod statement;
+mod survey;
 
-pub use answer::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
+pub use crate::geometry::Grasp;
+pub use crate::placement::{Objective, Relocation};
+pub use answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
 pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
-pub use planner::{PlanError, SurveyEntry, SurveyVerdict, plan, survey};
-pub use settings::{Objective, Settings};
+pub use confirm::PlanError;
+pub use planner::plan;
+pub use settings::Settings;
+pub use survey::{SurveyEntry, SurveyVerdict, survey};

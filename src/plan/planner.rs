@@ -1,57 +1,111 @@
 //! Couples knowledge, search and placement, and lets nothing leave unchecked.
 
-use crate::budget::Budget;
-use crate::plan::answer::{Answer, Statistics, Unplanned, Verdict};
-use crate::plan::check::Report;
-use crate::plan::settings::Settings;
-use crate::scene::{ObjectIndex, Scene};
+use core::time::Duration;
 
-/// The planner failed.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// The checker refused the planner's own answer: a bug. The answer is not served.
-    #[error("the answer did not pass its check")]
-    Refused(Report),
-}
+use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
+use super::confirm::{PlanError, confirm};
+use super::couple::{Question, arrange_least, arrange_one};
+use super::settings::Settings;
+use crate::budget::{Budget, Interrupted};
+use crate::knowledge::{Closure, KnowledgeBase, Lock, close, complete, fixed_blockers, lock, relevant};
+use crate::placement::{Arrangement, grasp_in_place};
+use crate::scene::Scene;
+use crate::search::{LeastSet, Outcome, Restriction, least};
 
-/// Plan for the scene's target.
+/// The share of the time after which knowledge and search hand over what they have.
+const SEARCH_SHARE: f64 = 0.6;
+/// The share of the rest after which placement does; the last part is the checker's.
+const PLACEMENT_SHARE: f64 = 0.75;
+
+/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if the answer fails its check.
-pub fn plan(_scene: &Scene, _settings: &Settings, _budget: &Budget<'_>) -> Result<Answer, PlanError> {
-    Ok(Answer { verdict: Verdict::TimedOut(Unplanned::default()), statistics: Statistics::default() })
+pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    let mut statistics = Statistics::default();
+    let verdict = Planner { scene, settings, budget, statistics: &mut statistics }.verdict();
+    let before = budget.elapsed();
+    let verdict = confirm(scene, verdict, budget)?;
+    statistics.check = budget.elapsed().saturating_sub(before);
+    Ok(Answer { verdict, statistics })
 }
 
-/// What the survey says of one object as the target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SurveyVerdict {
-    /// Can be grasped as the table stands.
-    Graspable,
-    /// Some set of relocations frees it, if places for them are found.
-    Relocate,
-    /// Nothing frees it.
-    Deadlock,
-    /// Not decided in time.
-    TimedOut,
+struct Planner<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+    budget: &'a Budget<'a>,
+    statistics: &'a mut Statistics,
 }
 
-/// One movable object of the survey.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SurveyEntry {
-    /// The object.
-    pub object: ObjectIndex,
-    /// What holds for it as the target.
-    pub verdict: SurveyVerdict,
-    /// The proven bound; `None` for a deadlock.
-    pub lower_bound: Option<usize>,
-    /// True if that many relocations suffice, places apart; `None` for a deadlock.
-    pub optimal: Option<bool>,
+impl Planner<'_> {
+    fn verdict(&mut self) -> Verdict {
+        let started = self.budget.elapsed();
+        let search_budget = self.budget.share(SEARCH_SHARE);
+        let target = self.scene.target();
+        let base = relevant(self.scene, target, &search_budget);
+        self.statistics.knowledge = self.since(started);
+        let Ok(base) = base else { return Verdict::TimedOut(Unplanned::default()) };
+        if base.options(target).any(<[_]>::is_empty) {
+            return graspable_now(self.scene);
+        }
+        let started = self.budget.elapsed();
+        let outcome = least(&base, target, &Restriction::default(), &search_budget);
+        self.statistics.search = self.since(started);
+        match outcome {
+            Outcome::Underivable => self.deadlock(),
+            Outcome::Interrupted(None) => Verdict::TimedOut(Unplanned::default()),
+            Outcome::Interrupted(Some(known)) => self.place(&base, known, false),
+            Outcome::Least(known) => self.place(&base, known, true),
+        }
+    }
+
+    fn since(&self, started: Duration) -> Duration {
+        self.budget.elapsed().saturating_sub(started)
+    }
+
+    fn deadlock(&mut self) -> Verdict {
+        let started = self.budget.elapsed();
+        let budget = self.budget.share(PLACEMENT_SHARE);
+        // The relevant part of the base would show a lock, but not the greatest.
+        let found = complete(self.scene, &budget).and_then(|base| {
+            let closure = close(&base, |_| false, &budget)?;
+            Ok(greatest_lock(self.scene, &base, &closure, &budget))
+        });
+        self.statistics.knowledge += self.since(started);
+        found.map_or_else(|Interrupted| Verdict::TimedOut(Unplanned::default()), Verdict::Deadlock)
+    }
+
+    fn place(&mut self, base: &KnowledgeBase, known: LeastSet, exact: bool) -> Verdict {
+        let started = self.budget.elapsed();
+        let budget = self.budget.share(PLACEMENT_SHARE);
+        let question = Question { scene: self.scene, base, objective: self.settings.objective };
+        let found = if exact {
+            arrange_least(&question, known.derivation.clone(), &budget)
+        } else {
+            arrange_one(&question, &known.derivation.order, &budget)
+        };
+        self.statistics.placement = self.since(started);
+        let bound = LowerBound { cost: known.bound, landmarks: known.landmarks };
+        match found {
+            Ok(Some(Arrangement { relocations, target_grasp })) => {
+                Verdict::Relocate(Plan { relocations, target_grasp, bound })
+            }
+            Ok(None) if exact => Verdict::NoSpace(Unplanned { bound, needed: Some(known.derivation.order) }),
+            Ok(None) | Err(Interrupted) => Verdict::TimedOut(Unplanned { bound, needed: Some(known.derivation.order) }),
+        }
+    }
 }
 
-/// Every movable object as the target, in index order.
-///
-/// # Errors
-/// [`PlanError::Refused`] if an entry's proof fails its check.
-pub fn survey(_scene: &Scene, _budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
-    Ok(Vec::new())
+/// The grasp of a target that knowledge says is graspable as the table stands.
+pub(super) fn graspable_now(scene: &Scene) -> Verdict {
+    let grasp = grasp_in_place(scene, scene.target());
+    grasp.map_or_else(|| Verdict::TimedOut(Unplanned::default()), Verdict::Graspable)
+}
+
+/// Why the target, which does not follow, does not: from the complete base and its closure.
+pub(super) fn greatest_lock(scene: &Scene, base: &KnowledgeBase, closure: &Closure, budget: &Budget<'_>) -> Deadlock {
+    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget);
+    blocked.extend(fixed_blockers(scene, &blocked));
+    blocked.sort_unstable();
+    Deadlock { blocked, core }
 }

@@ -1,14 +1,6 @@
 //! What a caller may choose.
 
-/// Which of the free places a relocated object goes to.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Objective {
-    /// As far from the target as possible (the paper's).
-    #[default]
-    FarFromTarget,
-    /// As near to its old place as possible.
-    ShortMoves,
-}
+use crate::placement::Objective;
 
 /// How to plan.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

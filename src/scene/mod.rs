@@ -11,6 +11,8 @@ mod object;
 mod table;
 mod validate;
 
+use std::sync::Arc;
+
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 pub use fault::{Finding, Flaw, MAX_FINDINGS, Place};
 pub use gripper::{Gripper, MIN_FREE_WIDTH};
@@ -21,13 +23,19 @@ pub use validate::{
     COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
 };
 
-/// A scene that holds.
+/// A scene that holds. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Scene {
+    parts: Arc<Parts>,
+    target: ObjectIndex,
+}
+
+/// All of a scene but its target.
+#[derive(Debug)]
+struct Parts {
     table: Table,
     gripper: Gripper,
     objects: Vec<Object>,
-    target: ObjectIndex,
     index: DiscIndex,
 }
 
@@ -43,27 +51,27 @@ impl Scene {
 
     /// The table.
     pub fn table(&self) -> &Table {
-        &self.table
+        &self.parts.table
     }
 
     /// The gripper.
     pub fn gripper(&self) -> &Gripper {
-        &self.gripper
+        &self.parts.gripper
     }
 
     /// All objects, in the caller's order.
     pub fn objects(&self) -> &[Object] {
-        &self.objects
+        &self.parts.objects
     }
 
     /// One object.
     pub fn object(&self, index: ObjectIndex) -> &Object {
-        &self.objects[index.get()]
+        &self.parts.objects[index.get()]
     }
 
     /// Every object's index, in order.
     pub fn indices(&self) -> impl Iterator<Item = ObjectIndex> + use<> {
-        (0..self.objects.len()).map(ObjectIndex::new)
+        (0..self.parts.objects.len()).map(ObjectIndex::new)
     }
 
     /// The object that is wanted; never a fixed one.
@@ -73,16 +81,16 @@ impl Scene {
 
     /// The same scene with another target. `None` if that one is fixed.
     pub fn with_target(&self, target: ObjectIndex) -> Option<Self> {
-        (!self.object(target).fixed).then(|| Self { target, ..self.clone() })
+        (!self.object(target).fixed).then(|| Self { parts: Arc::clone(&self.parts), target })
     }
 
     /// The object with this id.
     pub fn find(&self, id: &str) -> Option<ObjectIndex> {
-        self.objects.iter().position(|object| object.id == id).map(ObjectIndex::new)
+        self.parts.objects.iter().position(|object| object.id == id).map(ObjectIndex::new)
     }
 
     /// The objects at their first places, by nearness.
     pub fn index(&self) -> &DiscIndex {
-        &self.index
+        &self.parts.index
     }
 }

@@ -1,12 +1,13 @@
 //! From a draft to a scene, or to the list of all that is wrong with it.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use nalgebra::Point2;
 
 use super::fault::{Finding, Findings, Flaw, Place};
 use super::{
-    Disc, DiscIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Rectangle, RectangleDraft, Scene,
+    Disc, DiscIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Parts, Rectangle, RectangleDraft, Scene,
     SceneDraft, Table, TableDraft,
 };
 
@@ -67,7 +68,8 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     let faults = faults.into_vec();
     match (table, gripper, target) {
         (Some(table), Some(gripper), Some(target)) if faults.is_empty() => {
-            Ok((Scene { table, gripper, objects, target, index }, warnings.into_vec()))
+            let parts = Parts { table, gripper, objects, index };
+            Ok((Scene { parts: Arc::new(parts), target }, warnings.into_vec()))
         }
         _ => Err(faults),
     }

@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::reader::{Faults, Names, Node, parse};
 use super::request::{PlanRequest, RequestLimits, request};
 use crate::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
-use crate::scene::COORDINATE_RANGE;
+use crate::scene::{COORDINATE_RANGE, Scene};
 
 /// A checked verification request.
 #[derive(Debug, Clone)]
@@ -66,14 +66,15 @@ pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest,
     faults.judge(request)
 }
 
-/// Read a stated answer alone. Its `target` is not compared with any scene.
+/// Read a stated answer alone. Its `target`, if it names one, must be the scene's.
 ///
 /// # Errors
 /// A problem with every fault of the body.
-pub fn read_plan(body: &[u8]) -> Result<Claim, Problem> {
+pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Claim, Problem> {
     let value = parse(body)?;
     let mut faults = Faults::default();
-    let claim = plan(Node::root(&value), None, &mut faults);
+    let target = scene.object(scene.target()).id();
+    let claim = plan(Node::root(&value), Some(target), &mut faults);
     faults.judge(claim)
 }
 

@@ -63,13 +63,14 @@ fn an_answer_as_served_reads_as_a_claim() {
         VerdictName::NoSpace,
         VerdictName::TimedOut,
     ];
+    let request = read(&scene().to_string()).unwrap();
     for (body, name) in bodies().into_iter().zip(names) {
-        let claim = read_plan(body.to_string().as_bytes()).unwrap();
+        let claim = read_plan(body.to_string().as_bytes(), &request.scene).unwrap();
         assert_eq!(claim.verdict, Some(name));
         let both = json!({"scene": scene(), "plan": body}).to_string();
         assert_eq!(read_verify(both.as_bytes(), &RequestLimits::default()).unwrap().claim, claim);
     }
-    let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#).unwrap();
+    let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#, &request.scene).unwrap();
     assert_eq!((short.verdict, short.cost, short.target_grasp.unwrap().yaw), (None, None, 1.0));
 }
 

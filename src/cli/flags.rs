@@ -1,0 +1,59 @@
+//! Every setting as a flag.
+
+use std::path::PathBuf;
+
+use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
+
+use crate::config::{Config, SETTINGS, Scope, Setting, Stated};
+
+/// The flags of a command that serves (`SERVICE`) or only plans, for whom most settings mean nothing.
+#[derive(Debug, Default)]
+pub(super) struct Flags<const SERVICE: bool>(pub(super) Stated);
+
+impl<const SERVICE: bool> Flags<SERVICE> {
+    fn settings() -> impl Iterator<Item = &'static Setting> {
+        SETTINGS.iter().filter(|setting| SERVICE || setting.scope == Scope::Planning)
+    }
+}
+
+impl<const SERVICE: bool> FromArgMatches for Flags<SERVICE> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut flags = Self::default();
+        flags.update_from_arg_matches(matches)?;
+        Ok(flags)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        self.0.config = matches.get_one::<PathBuf>("config").cloned();
+        let value = |setting: &'static Setting| Some((setting, matches.get_one::<String>(setting.name)?.clone()));
+        self.0.flags = Self::settings().filter_map(value).collect();
+        Ok(())
+    }
+}
+
+impl<const SERVICE: bool> Args for Flags<SERVICE> {
+    fn augment_args(command: Command) -> Command {
+        let defaults = Config::default();
+        let config = Arg::new("config")
+            .long("config")
+            .value_name("FILE")
+            .value_parser(clap::value_parser!(PathBuf))
+            .help_heading("Settings")
+            .help("A TOML file with settings, keys as the flags with _ for - [env: SINGULATE_CONFIG]");
+        Self::settings().fold(command.arg(config), |command, setting| {
+            let (default, variable) = ((setting.get)(&defaults), setting.variable());
+            let flag = Arg::new(setting.name)
+                .long(setting.flag())
+                .value_name(setting.placeholder)
+                // A value that begins with a dash is a bad value, not another flag.
+                .allow_hyphen_values(true)
+                .help_heading("Settings")
+                .help(format!("{} [env: {variable}] [default: {default}]", setting.help));
+            command.arg(flag)
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}

@@ -1,0 +1,75 @@
+//! `singulate healthcheck`: for containers, which have no curl.
+
+use core::time::Duration;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+
+use clap::Args;
+
+use super::Failure;
+use crate::config::{self, Stated};
+
+/// How long the service may take to say that it is ready.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// The arguments of `healthcheck`.
+#[derive(Debug, Args)]
+pub(super) struct Healthcheck {
+    /// What to ask; `/readyz` of the place where `serve` would listen where nothing is said
+    #[arg(long)]
+    url: Option<String>,
+}
+
+impl Healthcheck {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let url = match self.url {
+            Some(url) => url,
+            None => own_url(config::load(&Stated::default(), std::env::vars_os())?.listen),
+        };
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
+        match runtime.block_on(ask(&url)) {
+            Ok(status) if status.is_success() => Ok(()),
+            Ok(status) => Err(Failure::Broken(format!("{url}: {status}"))),
+            Err(error) if error.is_builder() => Err(Failure::Refused(format!("{url}: not a URL"))),
+            Err(error) => Err(Failure::Broken(format!("{url}: {}", innermost(&error)))),
+        }
+    }
+}
+
+/// Where a service that listens at `listen` can be asked from this machine.
+fn own_url(listen: SocketAddr) -> String {
+    let ip = match listen.ip() {
+        ip if !ip.is_unspecified() => ip,
+        IpAddr::V4(_) => IpAddr::V4(Ipv4Addr::LOCALHOST),
+        IpAddr::V6(_) => IpAddr::V6(Ipv6Addr::LOCALHOST),
+    };
+    format!("http://{}/readyz", SocketAddr::new(ip, listen.port()))
+}
+
+async fn ask(url: &str) -> Result<reqwest::StatusCode, reqwest::Error> {
+    // A proxy of the environment would be asked about the wrong machine.
+    let client = reqwest::Client::builder().timeout(PATIENCE).no_proxy().build()?;
+    Ok(client.get(url).send().await?.status())
+}
+
+/// The cause that says something: "connection refused" rather than "error sending request".
+fn innermost(error: &dyn core::error::Error) -> String {
+    let mut cause = error;
+    while let Some(source) = cause.source() {
+        cause = source;
+    }
+    cause.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_service_on_every_address_is_asked_on_this_machine() {
+        let url = |listen: &str| own_url(listen.parse().unwrap());
+        assert_eq!(url("0.0.0.0:8080"), "http://127.0.0.1:8080/readyz");
+        assert_eq!(url("[::]:81"), "http://[::1]:81/readyz");
+        assert_eq!(url("192.168.1.2:8080"), "http://192.168.1.2:8080/readyz");
+    }
+}

@@ -1,0 +1,103 @@
+//! The command line: one file a command.
+
+mod flags;
+mod generate;
+mod healthcheck;
+mod input;
+mod output;
+mod plan;
+mod serve;
+mod stopwatch;
+mod survey;
+mod table;
+mod text;
+mod verify;
+
+use clap::{Parser, Subcommand};
+
+use crate::config::{self, Config, ConfigError, Stated};
+use crate::{api, telemetry};
+
+const EXIT_CODES: &str = "\
+Exit status: 0 where an answer was given, whatever the verdict; 2 for bad arguments, settings or scenes, \
+with every fault on stderr; 1 for anything else.";
+
+/// Plans the fewest relocations that free an object on a crowded table, and proves it.
+///
+/// Without a command it serves HTTP, as `singulate serve` does.
+#[derive(Debug, Parser)]
+#[command(name = "singulate", version, after_help = EXIT_CODES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Answer over HTTP
+    Serve(serve::Serve),
+    /// Plan for the scene in a file
+    Plan(plan::Plan),
+    /// Check a plan against its scene
+    Verify(verify::Verify),
+    /// How many relocations every movable object would need
+    Survey(survey::Survey),
+    /// Make up a scene and print it as a request
+    Generate(generate::Generate),
+    /// Print the interface document
+    Openapi,
+    /// Ask a running service whether it is ready
+    Healthcheck(healthcheck::Healthcheck),
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Failure {
+    /// Bad arguments, settings or scene.
+    #[error("{0}")]
+    Refused(String),
+    /// Anything else.
+    #[error("{0}")]
+    Broken(String),
+}
+
+impl Failure {
+    /// The process's exit status.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Refused(_) => 2,
+            Self::Broken(_) => 1,
+        }
+    }
+}
+
+impl From<ConfigError> for Failure {
+    fn from(error: ConfigError) -> Self {
+        Self::Refused(error.to_string())
+    }
+}
+
+impl Cli {
+    /// Do what was asked for.
+    ///
+    /// # Errors
+    /// [`Failure`], with what to print on stderr.
+    pub fn run(self) -> Result<(), Failure> {
+        match self.command.unwrap_or_else(|| Command::Serve(serve::Serve::default())) {
+            Command::Serve(command) => command.run(),
+            Command::Plan(command) => command.run(),
+            Command::Verify(command) => command.run(),
+            Command::Survey(command) => command.run(),
+            Command::Generate(command) => command.run(),
+            Command::Openapi => output::print(&api::openapi_json()),
+            Command::Healthcheck(command) => command.run(),
+        }
+    }
+}
+
+/// The settings, and the log begun as they say.
+fn configure(stated: &Stated) -> Result<Config, Failure> {
+    let config = config::load(stated, std::env::vars_os())?;
+    telemetry::init(&config.log, config.log_format).map_err(Failure::Broken)?;
+    Ok(config)
+}

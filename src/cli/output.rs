@@ -1,0 +1,22 @@
+//! Writes answers to stdout.
+
+use std::io::{ErrorKind, Write};
+
+use serde::Serialize;
+
+use super::Failure;
+
+/// Write the text. Whoever closes the pipe early has read enough.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Broken(format!("stdout: {error}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Write a body as the service would, on lines of its own.
+pub(super) fn print_json(body: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(body).map_err(|error| Failure::Broken(error.to_string()))?;
+    print(&(text + "\n"))
+}

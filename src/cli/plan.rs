@@ -1,0 +1,56 @@
+//! `singulate plan`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::flags::Flags;
+use super::stopwatch::Stopwatch;
+use super::{Failure, configure, input, output, text};
+use crate::budget::Budget;
+use crate::plan::PlanError;
+use crate::wire::{AnswerBody, VerificationBody};
+use crate::{plan, render};
+
+/// The arguments of `plan`.
+#[derive(Debug, Args)]
+pub(super) struct Plan {
+    /// The scene, a request body of POST /v1/plans; `-` reads stdin
+    scene: PathBuf,
+    /// json: the answer of POST /v1/plans, for programs; text: for people; svg: a drawing
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    #[command(flatten)]
+    flags: Flags<false>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum Format {
+    #[default]
+    Json,
+    Text,
+    Svg,
+}
+
+impl Plan {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let config = configure(&self.flags.0)?;
+        let request = input::scene(&self.scene, &config.server.limits)?;
+        let clock = Stopwatch::start();
+        let budget = Budget::new(&clock, request.time_limit);
+        let answer = plan::plan(&request.scene, &request.settings, &budget).map_err(|error| withheld(&error))?;
+        match self.format {
+            Format::Json => output::print_json(&AnswerBody::new(&request, &answer)),
+            Format::Text => output::print(&text::answer(&request, &answer)),
+            Format::Svg => output::print(&render::svg(&request.scene, &answer)),
+        }
+    }
+}
+
+/// The planner's answer failed its check: a bug, told with what the checker found.
+pub(super) fn withheld(error: &PlanError) -> Failure {
+    let PlanError::Refused(report) = error;
+    let mut lines = vec![error.to_string()];
+    lines.extend(VerificationBody::new(report).faults.iter().map(text::fault));
+    Failure::Broken(lines.join("\n"))
+}

@@ -1,0 +1,83 @@
+//! `singulate serve`.
+
+use std::net::SocketAddr;
+
+use clap::Args;
+use tokio::net::TcpListener;
+
+use super::flags::Flags;
+use super::{Failure, configure, output};
+use crate::api;
+use crate::config::Config;
+
+/// A plate between two others and a fixed vase: small enough for one line, and something has to move.
+const SCENE: &str = include_str!("example.json");
+
+/// The arguments of `serve`.
+#[derive(Debug, Default, Args)]
+pub(super) struct Serve {
+    #[command(flatten)]
+    flags: Flags<true>,
+}
+
+impl Serve {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let config = configure(&self.flags.0)?;
+        let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
+        let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
+        runtime.block_on(serve(config))
+    }
+}
+
+async fn serve(config: Config) -> Result<(), Failure> {
+    let broken = |error: std::io::Error| Failure::Broken(format!("{}: {error}", config.listen));
+    let listener = TcpListener::bind(config.listen).await.map_err(broken)?;
+    let shutdown = stop_signal().map_err(broken)?;
+    let listen = listener.local_addr().map_err(broken)?;
+    tracing::info!(%listen, threads = config.server.threads, "serving");
+    output::print(&greeting(listen))?;
+    api::run(listener, config.server, shutdown).await.map_err(broken)
+}
+
+/// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers.
+fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+    })
+}
+
+fn greeting(listen: SocketAddr) -> String {
+    let host = if listen.ip().is_unspecified() { "localhost".to_owned() } else { listen.ip().to_string() };
+    let host = if listen.is_ipv6() && host.contains(':') { format!("[{host}]") } else { host };
+    let url = format!("http://{host}:{}", listen.port());
+    let scene = SCENE.trim();
+    format!(
+        "singulate listens on {url} (pages: {url}/docs). Try:\n\n\
+         curl -s {url}/v1/plans -H 'content-type: application/json' -d '{scene}'\n\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wire::{RequestLimits, read_scene};
+
+    #[test]
+    fn the_scene_to_paste_is_a_valid_request_in_one_quoted_line() {
+        let request = read_scene(SCENE.as_bytes(), &RequestLimits::default()).unwrap();
+        assert!(request.warnings.is_empty());
+        assert!(!SCENE.trim().contains(['\n', '\'']));
+    }
+
+    #[test]
+    fn the_greeting_names_an_address_that_curl_can_reach() {
+        let line = |listen: &str| greeting(listen.parse().unwrap());
+        assert!(line("0.0.0.0:80").contains("curl -s http://localhost:80/v1/plans"));
+        assert!(line("[::1]:80").contains("curl -s http://[::1]:80/v1/plans"));
+    }
+}

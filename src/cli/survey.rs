@@ -1,0 +1,40 @@
+//! `singulate survey`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::flags::Flags;
+use super::plan::withheld;
+use super::stopwatch::Stopwatch;
+use super::verify::Format;
+use super::{Failure, configure, input, output, text};
+use crate::budget::Budget;
+use crate::plan::survey;
+use crate::wire::SurveyBody;
+
+/// The arguments of `survey`.
+#[derive(Debug, Args)]
+pub(super) struct Survey {
+    /// The scene; `-` reads stdin. Its target has no part in the answer
+    scene: PathBuf,
+    /// json: the answer of POST /v1/survey, for programs; text: for people
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    #[command(flatten)]
+    flags: Flags<false>,
+}
+
+impl Survey {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let config = configure(&self.flags.0)?;
+        let request = input::scene(&self.scene, &config.server.limits)?;
+        let clock = Stopwatch::start();
+        let entries = survey(&request.scene, &Budget::new(&clock, request.time_limit));
+        let entries = entries.map_err(|error| withheld(&error))?;
+        match self.format {
+            Format::Json => output::print_json(&SurveyBody::new(&request.scene, &entries)),
+            Format::Text => output::print(&text::survey(&request.scene, &entries)),
+        }
+    }
+}

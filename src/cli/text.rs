@@ -1,0 +1,182 @@
+//! Answers for people: what to do, and why.
+
+use core::time::Duration;
+
+use nalgebra::Point2;
+
+use super::table::{Column, table};
+use crate::plan::{
+    Answer, Deadlock, Grasp, LowerBound, Plan, Statistics, SurveyEntry, SurveyVerdict, Unplanned, Verdict,
+};
+use crate::render::headline;
+use crate::scene::{ObjectIndex, Scene};
+use crate::wire::{FaultBody, PlanRequest, VerificationBody};
+
+/// The text with control characters made visible: an id must not move the cursor or forge a line.
+pub(super) fn plain(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
+}
+
+/// The answer to a planning request.
+pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
+    let scene = &request.scene;
+    let name = |id: &String| format!(" in scene {}", plain(id));
+    let place = request.scene_id.as_ref().map(name).unwrap_or_default();
+    let target = plain(scene.object(scene.target()).id());
+    let mut paragraphs = vec![format!("{}\ntarget: {target}{place}\n", headline(answer))];
+    match &answer.verdict {
+        Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
+        Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
+        Verdict::Deadlock(deadlock) => paragraphs.push(why_never(scene, deadlock)),
+        Verdict::NoSpace(known) | Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
+    }
+    let warnings = request.warnings.iter();
+    paragraphs.push(
+        warnings
+            .map(|warning| format!("warning: {} at {}\n", plain(&warning.detail), plain(&warning.pointer)))
+            .collect(),
+    );
+    paragraphs.push(times(&answer.statistics));
+    paragraphs.retain(|paragraph| !paragraph.is_empty());
+    paragraphs.join("\n")
+}
+
+fn steps(scene: &Scene, plan: &Plan) -> String {
+    let columns = [
+        Column::right("#"),
+        Column::left("object"),
+        Column::right("from (m)"),
+        Column::left(""),
+        Column::right("to (m)"),
+        Column::right("grasp yaw"),
+        Column::right("release yaw"),
+        Column::right("gap"),
+    ];
+    let rows = plan.relocations.iter().enumerate().map(|(at, step)| {
+        let object = plain(scene.object(step.object).id());
+        let gap = format!("{:.1} mm", step.gap * 1e3);
+        let (from, to) = (point(step.from), point(step.to));
+        vec![(at + 1).to_string(), object, from, "→".to_owned(), to, yaw(step.grasp), yaw(step.release), gap]
+    });
+    let target = plain(scene.object(scene.target()).id());
+    format!("{}\nThen grasp {target} at yaw {}.\n", table(&columns, rows), yaw(plan.target_grasp))
+}
+
+fn point(at: Point2<f64>) -> String {
+    format!("{:.3}, {:.3}", at.x, at.y)
+}
+
+/// The yaw, and how far it may be off to either side.
+fn yaw(grasp: Grasp) -> String {
+    format!("{:.1}° ±{:.1}°", grasp.yaw.to_degrees(), grasp.slack.to_degrees())
+}
+
+fn why_least(scene: &Scene, plan: &Plan) -> String {
+    let (cost, least) = (plan.cost(), plan.bound.cost);
+    let bound = why_bound(scene, &plan.bound);
+    if plan.optimal() {
+        return format!("{bound}So {cost} is the least.\n");
+    }
+    format!("{bound}So {least} or more are needed; whether fewer than {cost} suffice is not known.\n")
+}
+
+/// The landmarks as sentences.
+fn why_bound(scene: &Scene, bound: &LowerBound) -> String {
+    let lines = bound.landmarks.iter().map(|set| format!("Every plan moves at least one of: {}\n", ids(scene, set)));
+    let lines: String = lines.collect();
+    if bound.landmarks.len() < 2 {
+        return lines;
+    }
+    let (count, meet) = (bound.cost, if bound.cost == 1 { "object meets" } else { "objects meet" });
+    format!("{lines}No fewer than {count} {meet} all of these sets.\n")
+}
+
+fn ids(scene: &Scene, objects: &[ObjectIndex]) -> String {
+    objects.iter().map(|&object| plain(scene.object(object).id())).collect::<Vec<_>>().join(", ")
+}
+
+fn why_never(scene: &Scene, deadlock: &Deadlock) -> String {
+    let members = deadlock.core.iter().map(|&index| {
+        let object = scene.object(index);
+        let part = match (index == scene.target(), object.fixed()) {
+            (true, _) => "the target",
+            (false, true) => "fixed",
+            (false, false) => "",
+        };
+        vec![plain(object.id()), part.to_owned()]
+    });
+    let members = table(&[Column::left("object"), Column::left("")], members);
+    let others: Vec<ObjectIndex> =
+        deadlock.blocked.iter().copied().filter(|object| !deadlock.core.contains(object)).collect();
+    let others = if others.is_empty() {
+        String::new()
+    } else {
+        format!("\nOut of reach for good as well: {}\n", ids(scene, &others))
+    };
+    format!(
+        "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\
+         {members}{others}"
+    )
+}
+
+fn so_far(scene: &Scene, known: &Unplanned) -> String {
+    let needed = match &known.needed {
+        Some(needed) => format!("Would free the target, moved in this order: {}\n", ids(scene, needed)),
+        None => String::new(),
+    };
+    let bound = match known.bound.cost {
+        0 => String::new(),
+        least => format!("{}So at least {least} must move.\n", why_bound(scene, &known.bound)),
+    };
+    let gap = if needed.is_empty() || bound.is_empty() { "" } else { "\n" };
+    format!("{needed}{gap}{bound}")
+}
+
+fn times(statistics: &Statistics) -> String {
+    let ms = |duration: Duration| format!("{:.2} ms", duration.as_secs_f64() * 1e3);
+    let Statistics { knowledge, search, placement, check } = *statistics;
+    let parts = [(knowledge, "knowledge"), (search, "search"), (placement, "placement"), (check, "check")];
+    let parts = parts.map(|(duration, name)| format!("{name} {}", ms(duration)));
+    format!("{} in all: {}\n", ms(knowledge + search + placement + check), parts.join(", "))
+}
+
+/// What the checker found.
+pub(super) fn verification(body: &VerificationBody) -> String {
+    if body.valid {
+        return "valid: the plan holds\n".to_owned();
+    }
+    let count = body.faults.len();
+    let lines: String = body.faults.iter().map(|fault| self::fault(fault) + "\n").collect();
+    format!("not valid: {count} {}\n{lines}", if count == 1 { "fault" } else { "faults" })
+}
+
+/// One fault, steps counted from 1 as in the table of steps.
+pub(super) fn fault(fault: &FaultBody) -> String {
+    let step = fault.step.map(|step| format!("step {}: ", step + 1)).unwrap_or_default();
+    let object = fault.object.as_ref().map(|id| format!(" [{}]", plain(id))).unwrap_or_default();
+    format!("  {step}{}{object} ({})", plain(&fault.detail), fault.code)
+}
+
+/// What holds for every object as the target.
+pub(super) fn survey(scene: &Scene, entries: &[SurveyEntry]) -> String {
+    let columns = [Column::left("object"), Column::left("verdict"), Column::left("relocations")];
+    let rows = entries.iter().map(|entry| {
+        let verdict = match entry.verdict {
+            SurveyVerdict::Graspable => "graspable",
+            SurveyVerdict::Relocate => "relocate",
+            SurveyVerdict::Deadlock => "deadlock",
+            SurveyVerdict::TimedOut => "timed out",
+        };
+        let relocations = match (entry.lower_bound, entry.optimal) {
+            (Some(bound), Some(true)) => bound.to_string(),
+            (Some(bound), _) => format!("at least {bound}"),
+            (None, _) => String::new(),
+        };
+        vec![plain(scene.object(entry.object).id()), verdict.to_owned(), relocations]
+    });
+    let note = "Relocations are those that logic asks for; whether each finds a place is for `plan` to say.\n";
+    format!("{}\n{note}", table(&columns, rows))
+}
+
+#[cfg(test)]
+mod tests;

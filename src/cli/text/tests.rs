@@ -1,0 +1,146 @@
+//! The texts, word for word.
+
+use super::*;
+use crate::plan::Relocation;
+use crate::wire::{RequestLimits, read_scene};
+
+fn request() -> PlanRequest {
+    let scene = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 2, "y_max": 1},
+        "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
+        "objects": [{"id": "cup", "x": 0.5, "y": 0.5, "radius": 0.05}, {"id": "plate-2", "x": 0.62, "y": 0.5, "radius": 0.05},
+                    {"id": "b\u001b[2J", "x": 0.38, "y": 0.5, "radius": 0.05},
+                    {"id": "vase", "x": 0.5, "y": 0.7, "radius": 0.05, "fixed": true}],
+        "target": "cup"}"#;
+    read_scene(scene.as_bytes(), &RequestLimits::default()).unwrap()
+}
+
+fn objects(positions: &[usize]) -> Vec<ObjectIndex> {
+    positions.iter().copied().map(ObjectIndex::new).collect()
+}
+
+fn text(verdict: Verdict) -> String {
+    let statistics = Statistics { knowledge: Duration::from_micros(40), ..Statistics::default() };
+    answer(&request(), &Answer { verdict, statistics })
+}
+
+const GRASP: Grasp = Grasp { yaw: 0.5, slack: 0.1 };
+const TIMES: &str = "0.04 ms in all: knowledge 0.04 ms, search 0.00 ms, placement 0.00 ms, check 0.00 ms\n";
+
+fn plan(bound: usize, landmarks: &[&[usize]]) -> Verdict {
+    let step = |object: usize| {
+        let from = request().scene.objects()[object].disc().centre;
+        let (object, to) = (ObjectIndex::new(object), Point2::new(1.5, 0.25));
+        Relocation { object, from, to, grasp: GRASP, release: GRASP, gap: 0.0312 }
+    };
+    let bound = LowerBound { cost: bound, landmarks: landmarks.iter().map(|set| objects(set)).collect() };
+    Verdict::Relocate(Plan { relocations: vec![step(1), step(2)], target_grasp: GRASP, bound })
+}
+
+#[test]
+fn a_plan_shows_its_steps_and_why_none_is_shorter() {
+    let expected = format!(
+        "relocate 2 objects (proven least)\n\
+         target: cup in scene cell-4/17\n\
+         \n\
+         #  object          from (m)           to (m)    grasp yaw  release yaw      gap\n\
+         1  plate-2     0.620, 0.500  →  1.500, 0.250  28.6° ±5.7°  28.6° ±5.7°  31.2 mm\n\
+         2  b\\u{{1b}}[2J  0.380, 0.500  →  1.500, 0.250  28.6° ±5.7°  28.6° ±5.7°  31.2 mm\n\
+         \n\
+         Then grasp cup at yaw 28.6° ±5.7°.\n\
+         \n\
+         Every plan moves at least one of: plate-2\n\
+         Every plan moves at least one of: b\\u{{1b}}[2J\n\
+         No fewer than 2 objects meet all of these sets.\n\
+         So 2 is the least.\n\
+         \n\
+         {TIMES}"
+    );
+    assert_eq!(text(plan(2, &[&[1], &[2]])), expected);
+}
+
+#[test]
+fn a_plan_above_its_bound_says_so() {
+    let text = text(plan(1, &[&[1, 2]]));
+    assert!(text.starts_with("relocate 2 objects (at least 1 relocation is needed)\n"), "{text}");
+    assert!(
+        text.contains(
+            "of: plate-2, b\\u{1b}[2J\nSo 1 or more are needed; whether fewer than 2 suffice is not known.\n"
+        ),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_deadlock_names_those_that_lock_each_other() {
+    let deadlock = Deadlock { blocked: objects(&[0, 1, 2, 3]), core: objects(&[0, 1, 3]) };
+    let expected = format!(
+        "deadlock: 3 objects hold each other, no pick-and-place can free the target\n\
+         target: cup in scene cell-4/17\n\
+         \n\
+         These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\
+         \n\
+         object\n\
+         cup      the target\n\
+         plate-2\n\
+         vase     fixed\n\
+         \n\
+         Out of reach for good as well: b\\u{{1b}}[2J\n\
+         \n\
+         {TIMES}"
+    );
+    assert_eq!(text(Verdict::Deadlock(deadlock)), expected);
+}
+
+#[test]
+fn without_a_plan_the_bound_and_the_needed_order_are_told() {
+    let bound = LowerBound { cost: 1, landmarks: vec![objects(&[1, 2])] };
+    let known = Unplanned { bound, needed: Some(objects(&[2, 1])) };
+    let expected = format!(
+        "no space: no place found for what has to move (at least 1 relocation is needed)\n\
+         target: cup in scene cell-4/17\n\
+         \n\
+         Would free the target, moved in this order: b\\u{{1b}}[2J, plate-2\n\
+         \n\
+         Every plan moves at least one of: plate-2, b\\u{{1b}}[2J\n\
+         So at least 1 must move.\n\
+         \n\
+         {TIMES}"
+    );
+    assert_eq!(text(Verdict::NoSpace(known)), expected);
+    let nothing = text(Verdict::TimedOut(Unplanned::default()));
+    assert_eq!(nothing, format!("timed out: nothing is proven yet\ntarget: cup in scene cell-4/17\n\n{TIMES}"));
+}
+
+#[test]
+fn a_survey_is_one_line_an_object() {
+    let entry = |object: usize, verdict, lower_bound, optimal| SurveyEntry {
+        object: ObjectIndex::new(object),
+        verdict,
+        lower_bound,
+        optimal,
+    };
+    let entries = [
+        entry(0, SurveyVerdict::Relocate, Some(2), Some(true)),
+        entry(1, SurveyVerdict::Deadlock, None, None),
+        entry(2, SurveyVerdict::TimedOut, Some(1), Some(false)),
+    ];
+    let text = survey(&request().scene, &entries);
+    let expected = "object      verdict    relocations\n\
+                    cup         relocate   2\n\
+                    plate-2     deadlock\n\
+                    b\\u{1b}[2J  timed out  at least 1\n";
+    assert!(text.starts_with(expected), "{text}");
+}
+
+#[test]
+fn a_verification_lists_its_faults_with_steps_counted_from_one() {
+    let fault = FaultBody {
+        code: "blocked_grasp",
+        step: Some(0),
+        object: Some("plate-2".to_owned()),
+        detail: "finger 1 is 3 mm inside 'vase'".to_owned(),
+    };
+    let text = verification(&VerificationBody { valid: false, faults: vec![fault] });
+    assert_eq!(text, "not valid: 1 fault\n  step 1: finger 1 is 3 mm inside 'vase' [plate-2] (blocked_grasp)\n");
+    assert_eq!(verification(&VerificationBody { valid: true, faults: Vec::new() }), "valid: the plan holds\n");
+}

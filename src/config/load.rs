@@ -1,0 +1,195 @@
+//! Brings flags, variables and the file together.
+
+use core::fmt;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::Config;
+use super::setting::{SETTINGS, Setting};
+
+/// What every variable of ours begins with.
+const PREFIX: &str = "SINGULATE_";
+/// The variable that names the file.
+const CONFIG_VARIABLE: &str = "SINGULATE_CONFIG";
+
+/// Where a value came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// A flag.
+    Flag(String),
+    /// An environment variable.
+    Variable(String),
+    /// A key of a file.
+    File(PathBuf, String),
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flag(flag) => write!(f, "--{flag}"),
+            Self::Variable(variable) => f.write_str(variable),
+            Self::File(path, key) => write!(f, "{key} in {}", path.display()),
+        }
+    }
+}
+
+/// What is said on the command line.
+#[derive(Debug, Default)]
+pub struct Stated {
+    /// The file.
+    pub config: Option<PathBuf>,
+    /// Settings by flag.
+    pub flags: Vec<(&'static Setting, String)>,
+}
+
+/// All that is wrong with the settings, one line each.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct ConfigError(pub Vec<String>);
+
+/// The configuration from flags, the variables of the environment and the file that either of them names.
+///
+/// # Errors
+/// Everything that is wrong: unknown keys and variables, values that can't be, a file that can't be read.
+pub fn load(
+    stated: &Stated,
+    environment: impl IntoIterator<Item = (OsString, OsString)>,
+) -> Result<Config, ConfigError> {
+    let mut faults = Vec::new();
+    let (file, variables) = variables(environment, &mut faults);
+    let mut config = Config::default();
+    let mut apply = |setting: &Setting, source: &Source, text: &str, faults: &mut Vec<String>| {
+        if let Err(detail) = (setting.set)(&mut config, text) {
+            faults.push(format!("{source}: {detail}"));
+        }
+    };
+    if let Some(path) = stated.config.as_ref().or(file.as_ref()) {
+        for (setting, source, text) in read(path, &mut faults) {
+            apply(setting, &source, &text, &mut faults);
+        }
+    }
+    for (setting, text) in variables {
+        apply(setting, &Source::Variable(setting.variable()), &text, &mut faults);
+    }
+    for (setting, text) in &stated.flags {
+        apply(setting, &Source::Flag(setting.flag()), text, &mut faults);
+    }
+    if faults.is_empty() { Ok(config) } else { Err(ConfigError(faults)) }
+}
+
+/// The file's path and the settings among the environment's variables, in the order of [`SETTINGS`].
+fn variables(
+    environment: impl IntoIterator<Item = (OsString, OsString)>,
+    faults: &mut Vec<String>,
+) -> (Option<PathBuf>, Vec<(&'static Setting, String)>) {
+    let mut file = None;
+    let mut found = Vec::new();
+    let mut unknown = Vec::new();
+    for (name, value) in environment {
+        let Some(name) = name.to_str().filter(|name| name.starts_with(PREFIX)) else { continue };
+        if name == CONFIG_VARIABLE {
+            file = Some(PathBuf::from(value));
+        } else if let Some(at) = SETTINGS.iter().position(|setting| setting.variable() == name) {
+            match value.into_string() {
+                Ok(text) => found.push((at, text)),
+                Err(_) => faults.push(format!("{name}: the value is not UTF-8")),
+            }
+        } else {
+            unknown.push(format!("{name}: there is no such setting"));
+        }
+    }
+    // The environment has no order of its own.
+    unknown.sort_unstable();
+    faults.append(&mut unknown);
+    found.sort_unstable();
+    (file, found.into_iter().map(|(at, text)| (&SETTINGS[at], text)).collect())
+}
+
+/// The settings in a TOML file.
+fn read(path: &Path, faults: &mut Vec<String>) -> Vec<(&'static Setting, Source, String)> {
+    let table = std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let table = table.and_then(|text| text.parse::<toml::Table>().map_err(|error| error.to_string()));
+    let table = match table {
+        Ok(table) => table,
+        Err(detail) => {
+            faults.push(format!("{}: {}", path.display(), detail.trim_end()));
+            return Vec::new();
+        }
+    };
+    let mut found = Vec::new();
+    for (key, value) in table {
+        let source = Source::File(path.to_owned(), key.clone());
+        let Some(setting) = SETTINGS.iter().find(|setting| setting.name == key) else {
+            faults.push(format!("{source}: there is no such setting"));
+            continue;
+        };
+        match value {
+            toml::Value::String(text) => found.push((setting, source, text)),
+            toml::Value::Integer(number) => found.push((setting, source, number.to_string())),
+            toml::Value::Float(number) => found.push((setting, source, number.to_string())),
+            other => faults.push(format!("{source}: a {} is no value for this setting", other.type_str())),
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flag(name: &str, text: &str) -> (&'static Setting, String) {
+        (SETTINGS.iter().find(|setting| setting.name == name).unwrap(), text.to_owned())
+    }
+
+    fn variables(list: &[(&str, &str)]) -> Vec<(OsString, OsString)> {
+        list.iter().map(|(name, value)| (OsString::from(name), OsString::from(value))).collect()
+    }
+
+    /// A file of this name and text in the directory for temporary files.
+    fn file(name: &str, text: &str) -> PathBuf {
+        let path = std::env::temp_dir().join(format!("singulate-{}-{name}.toml", std::process::id()));
+        std::fs::write(&path, text).unwrap();
+        path
+    }
+
+    #[test]
+    fn a_flag_goes_before_a_variable_and_a_variable_before_the_file() {
+        let path = file("order", "threads = 2\nqueue = 3\nlog = 'warn'\noverlap_tolerance = 0.002\n");
+        let stated = Stated { config: Some(path.clone()), flags: vec![flag("threads", "7")] };
+        let variables = variables(&[("SINGULATE_THREADS", "5"), ("SINGULATE_QUEUE", "6"), ("PATH", "/bin")]);
+        let config = load(&stated, variables).unwrap();
+        std::fs::remove_file(path).unwrap();
+        assert_eq!((config.server.threads, config.server.queue, config.log.as_str()), (7, 6, "warn"));
+        assert!((config.server.limits.scene.overlap_tolerance - 0.002).abs() < 1e-12);
+        assert_eq!(config.listen, Config::default().listen);
+    }
+
+    #[test]
+    fn every_fault_is_told_with_its_source() {
+        let path = file("faults", "thread = 2\nqueue = true\nlisten = 'here'\n");
+        let stated = Stated { config: None, flags: vec![flag("max_objects", "many")] };
+        let at = path.to_str().unwrap();
+        let list = [("SINGULATE_CONFIG", at), ("SINGULATE_THREADS", "0"), ("SINGULATE_TREADS", "2")];
+        let ConfigError(mut faults) = load(&stated, variables(&list)).unwrap_err();
+        std::fs::remove_file(&path).unwrap();
+        faults.sort_unstable();
+        let expected = [
+            "--max-objects: 'many' is not a whole number from 1 to 1000000".to_owned(),
+            "SINGULATE_THREADS: '0' is not a whole number from 1 to 1000000".to_owned(),
+            "SINGULATE_TREADS: there is no such setting".to_owned(),
+            format!("listen in {at}: 'here' is not an address and port like 0.0.0.0:8080"),
+            format!("queue in {at}: a boolean is no value for this setting"),
+            format!("thread in {at}: there is no such setting"),
+        ];
+        assert_eq!(faults, expected);
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_or_not_toml_is_a_fault() {
+        for path in [PathBuf::from("/nowhere/at/all.toml"), file("broken", "threads = ")] {
+            let stated = Stated { config: Some(path.clone()), flags: Vec::new() };
+            let ConfigError(faults) = load(&stated, []).unwrap_err();
+            assert!(faults[0].starts_with(path.to_str().unwrap()) && faults.len() == 1, "{faults:?}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What the operator may set, and from where: flag before variable before file before default.
+
+mod load;
+mod setting;
+
+use std::net::{Ipv4Addr, SocketAddr};
+
+use crate::api::ServerSettings;
+
+pub use load::{ConfigError, Source, Stated, load};
+pub use setting::{SETTINGS, Scope, Setting};
+
+/// How log lines are written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum LogFormat {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// Every setting with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Config {
+    /// Where the service listens.
+    pub listen: SocketAddr,
+    /// The service and its limits.
+    pub server: ServerSettings,
+    /// Which log lines are written, as `tracing` filters are written.
+    pub log: String,
+    /// How they are written.
+    pub log_format: LogFormat,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
+            server: ServerSettings::default(),
+            log: "info".to_owned(),
+            log_format: LogFormat::default(),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What follows from a knowledge base: forward chaining with a counter per rule (Dowling & Gallier 1984), linear in the
+//! size of the base.
+
+use super::base::KnowledgeBase;
+use crate::budget::{Budget, Interrupted};
+use crate::scene::ObjectIndex;
+
+/// What can be relocated, in an order in which it can.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Closure {
+    /// The derived objects, each after all of one of its options.
+    pub order: Vec<ObjectIndex>,
+    /// Per object whether it is derived.
+    pub derived: Vec<bool>,
+}
+
+/// Relocate all that can be relocated, except what is `held`: that stays even where it could be grasped.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub fn close(
+    base: &KnowledgeBase,
+    held: impl Fn(ObjectIndex) -> bool,
+    budget: &Budget<'_>,
+) -> Result<Closure, Interrupted> {
+    let condition_of = ConditionOf::new(base);
+    let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
+    let mut closure = Closure { order: Vec::new(), derived: vec![false; base.len()] };
+    for object in base.objects() {
+        for rule in base.rules_of(object) {
+            missing.push(u32::try_from(base.body(rule).len()).unwrap_or(u32::MAX));
+        }
+        if base.options(object).any(<[_]>::is_empty) {
+            closure.derive(object);
+        }
+    }
+    let mut at = 0;
+    while let Some(&object) = closure.order.get(at) {
+        at += 1;
+        if at % 64 == 0 {
+            budget.check()?;
+        }
+        if held(object) {
+            continue;
+        }
+        for &(rule, head) in condition_of.rules(object) {
+            missing[rule as usize] -= 1;
+            if missing[rule as usize] == 0 {
+                closure.derive(head);
+            }
+        }
+    }
+    Ok(closure)
+}
+
+impl Closure {
+    fn derive(&mut self, object: ObjectIndex) {
+        if !core::mem::replace(&mut self.derived[object.get()], true) {
+            self.order.push(object);
+        }
+    }
+
+    /// True if the object is derived.
+    pub fn derives(&self, object: ObjectIndex) -> bool {
+        self.derived[object.get()]
+    }
+}
+
+/// Per object the rules that need it, with their heads.
+pub(super) struct ConditionOf {
+    first: Vec<u32>,
+    rules: Vec<(u32, ObjectIndex)>,
+}
+
+impl ConditionOf {
+    pub(super) fn new(base: &KnowledgeBase) -> Self {
+        let mut first = vec![0_u32; base.len() + 1];
+        for rule in 0..base.rules() {
+            base.body(rule).iter().for_each(|member| first[member.get() + 1] += 1);
+        }
+        for at in 1..first.len() {
+            first[at] += first[at - 1];
+        }
+        let mut next = first.clone();
+        let mut rules = vec![(0, ObjectIndex::new(0)); base.size()];
+        for head in base.objects() {
+            for rule in base.rules_of(head) {
+                for member in base.body(rule) {
+                    let slot = &mut next[member.get()];
+                    #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+                    let entry = (rule as u32, head);
+                    rules[*slot as usize] = entry;
+                    *slot += 1;
+                }
+            }
+        }
+        Self { first, rules }
+    }
+
+    pub(super) fn rules(&self, object: ObjectIndex) -> &[(u32, ObjectIndex)] {
+        &self.rules[self.first[object.get()] as usize..self.first[object.get() + 1] as usize]
+    }
+}

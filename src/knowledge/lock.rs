@@ -1,0 +1,196 @@
+//! Locks: sets of objects that hold each other.
+//!
+//! A set is a lock when each movable member has some member in every one of its options, for then the first of them to be
+//! grasped can't exist. The objects that forward chaining leaves underived are the greatest lock.
+
+use std::collections::VecDeque;
+
+use super::base::KnowledgeBase;
+use super::closure::Closure;
+use crate::budget::Budget;
+use crate::scene::ObjectIndex;
+
+/// The greatest lock and an inclusion-minimal one within it, both in index order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lock {
+    /// Every object with options that can't be derived. (Those without are added by whoever knows why they have none.)
+    pub blocked: Vec<ObjectIndex>,
+    /// A lock that holds the target; inclusion-minimal unless the budget ended first.
+    pub core: Vec<ObjectIndex>,
+}
+
+/// The lock that holds `target`, which `closure` (of the same base) must not derive. An object without options is a member
+/// that needs no proof of its own.
+pub fn lock(base: &KnowledgeBase, closure: &Closure, target: ObjectIndex, budget: &Budget<'_>) -> Lock {
+    let mut grown = Core::grow(base, closure, target);
+    grown.minimise(budget);
+    let movable = |object: &ObjectIndex| !base.rules_of(*object).is_empty();
+    let blocked = base.objects().filter(|object| !closure.derives(*object)).filter(movable).collect();
+    Lock { blocked, core: grown.members() }
+}
+
+/// A lock under construction.
+struct Core<'a> {
+    base: &'a KnowledgeBase,
+    target: ObjectIndex,
+    member: Vec<bool>,
+    /// In the order in which they came in.
+    entered: Vec<ObjectIndex>,
+    /// Per rule of a member how many members its body holds.
+    holders: Vec<u32>,
+    /// Per object the rules that need it, of members only.
+    condition_of: Vec<Vec<(u32, ObjectIndex)>>,
+}
+
+impl<'a> Core<'a> {
+    /// From the target outwards: whoever is in needs, for each option that no member holds, one more underived member.
+    fn grow(base: &'a KnowledgeBase, closure: &Closure, target: ObjectIndex) -> Self {
+        let mut core = Self {
+            base,
+            target,
+            member: vec![false; base.len()],
+            entered: Vec::new(),
+            holders: vec![0; base.rules()],
+            condition_of: vec![Vec::new(); base.len()],
+        };
+        let mut open = VecDeque::from([target]);
+        core.enter(target);
+        while let Some(object) = open.pop_front() {
+            while let Some(holder) = core.best_holder(object, closure) {
+                core.enter(holder);
+                open.push_back(holder);
+            }
+        }
+        core
+    }
+
+    fn enter(&mut self, object: ObjectIndex) {
+        self.member[object.get()] = true;
+        self.entered.push(object);
+        for rule in self.base.rules_of(object) {
+            for &other in self.base.body(rule) {
+                #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+                self.condition_of[other.get()].push((rule as u32, object));
+                self.holders[rule] += u32::from(self.member[other.get()]);
+            }
+        }
+        for at in 0..self.condition_of[object.get()].len() {
+            let (rule, head) = self.condition_of[object.get()][at];
+            // Its own rules were counted above.
+            self.holders[rule as usize] += u32::from(head != object);
+        }
+    }
+
+    /// The underived object that holds most of the options that no member holds yet; one that can never be moved is best,
+    /// for it needs no holder of its own.
+    fn best_holder(&self, object: ObjectIndex, closure: &Closure) -> Option<ObjectIndex> {
+        let open: Vec<usize> = self.base.rules_of(object).filter(|&rule| self.holders[rule] == 0).collect();
+        let mut candidates: Vec<ObjectIndex> =
+            open.iter().flat_map(|&rule| self.base.body(rule)).copied().filter(|o| !closure.derives(*o)).collect();
+        candidates.sort_unstable();
+        let runs = candidates.chunk_by(|a, b| a == b);
+        let rank =
+            |run: &&[ObjectIndex]| (self.base.rules_of(run[0]).is_empty(), run.len(), core::cmp::Reverse(run[0]));
+        runs.max_by_key(rank).map(|run| run[0])
+    }
+
+    /// Leave members out, last come first, as long as the target stays held.
+    fn minimise(&mut self, budget: &Budget<'_>) {
+        for at in (0..self.entered.len()).rev() {
+            if budget.check().is_err() {
+                return;
+            }
+            let object = self.entered[at];
+            if object != self.target && self.member[object.get()] {
+                self.leave_unless_target_falls(object);
+            }
+        }
+    }
+
+    /// Whoever loses the last holder of an option leaves as well. If that reaches the target, all come back.
+    fn leave_unless_target_falls(&mut self, object: ObjectIndex) {
+        let mut left = vec![object];
+        self.member[object.get()] = false;
+        let mut at = 0;
+        while at < left.len() {
+            let gone = left[at];
+            at += 1;
+            for &(rule, head) in &self.condition_of[gone.get()] {
+                self.holders[rule as usize] -= 1;
+                if self.holders[rule as usize] == 0 && core::mem::replace(&mut self.member[head.get()], false) {
+                    left.push(head);
+                }
+            }
+        }
+        if self.member[self.target.get()] {
+            return;
+        }
+        for object in left {
+            self.member[object.get()] = true;
+            for &(rule, _) in &self.condition_of[object.get()] {
+                self.holders[rule as usize] += 1;
+            }
+        }
+    }
+
+    fn members(&self) -> Vec<ObjectIndex> {
+        self.base.objects().filter(|object| self.member[object.get()]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::close;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn base(options: Vec<Vec<Vec<usize>>>) -> KnowledgeBase {
+        let set = |members: Vec<usize>| members.into_iter().map(ObjectIndex::new).collect();
+        options.into_iter().map(|list| list.into_iter().map(set).collect()).collect()
+    }
+
+    fn is_lock(base: &KnowledgeBase, members: &[ObjectIndex]) -> bool {
+        members.iter().all(|&member| base.options(member).all(|option| option.iter().any(|o| members.contains(o))))
+    }
+
+    fn check(base: &KnowledgeBase) -> Option<Lock> {
+        let target = ObjectIndex::new(0);
+        let closure = close(base, |_| false, &Budget::unlimited()).expect("unlimited");
+        if closure.derives(target) {
+            return None;
+        }
+        let lock = lock(base, &closure, target, &Budget::unlimited());
+        assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
+        let with_stuck: Vec<_> = base.objects().filter(|object| !closure.derives(*object)).collect();
+        assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));
+        let n = lock.core.len();
+        for subset in 0..(1_u32 << n) - 1 {
+            let part: Vec<_> = (0..n).filter(|at| subset >> at & 1 == 1).map(|at| lock.core[at]).collect();
+            assert!(!part.contains(&target) || !is_lock(base, &part), "{part:?} of {lock:?}");
+        }
+        Some(lock)
+    }
+
+    #[test]
+    fn one_fixed_object_locks_alone() {
+        let lock = check(&base(vec![vec![vec![1], vec![1, 2]], vec![], vec![vec![]]])).expect("a deadlock");
+        assert_eq!(lock.core, [ObjectIndex::new(0), ObjectIndex::new(1)]);
+        assert_eq!(lock.blocked, [ObjectIndex::new(0)]);
+    }
+
+    #[test]
+    fn the_core_is_a_part_of_the_greatest_lock() {
+        let lock = check(&base(vec![vec![vec![1, 3]], vec![vec![2]], vec![vec![1]], vec![vec![0]]]));
+        assert_eq!(lock.map(|lock| (lock.core.len(), lock.blocked.len())), Some((3, 4)));
+    }
+
+    proptest! {
+        #[test]
+        fn a_core_is_a_lock_and_no_part_of_it_is(
+            options in proptest::collection::vec(
+                proptest::collection::vec(proptest::collection::vec(0_usize..9, 1..4), 0..4), 9),
+        ) {
+            check(&base(options));
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Which obstacles must go first: the knowledge base, what follows from it, and what holds itself locked.
+//!
+//! Each option of an object is a definite Horn rule: "all of these are relocated ⇒ the object is graspable".
+
+mod base;
+mod closure;
+mod lock;
+mod options;
+mod scene_base;
+
+pub use base::KnowledgeBase;
+pub use closure::{Closure, close};
+pub use lock::{Lock, lock};
+pub use options::{Blocker, minimal_options};
+pub use scene_base::{complete, fixed_blockers, relevant};

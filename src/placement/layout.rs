@@ -1,0 +1,93 @@
+//! Where everything stands after some moves.
+
+use nalgebra::Point2;
+
+use crate::geometry::{ArcSet, Grasp, shadow, widest_grasp};
+use crate::scene::{Disc, ObjectIndex, Scene};
+
+/// The scene after some moves, with some objects lifted off the table.
+#[derive(Debug, Clone)]
+pub(super) struct Layout<'a> {
+    scene: &'a Scene,
+    /// Per object its new place, if it was moved.
+    place: Vec<Option<Point2<f64>>>,
+    moved: Vec<ObjectIndex>,
+    lifted: Vec<bool>,
+}
+
+impl<'a> Layout<'a> {
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        let count = scene.objects().len();
+        Self { scene, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
+    }
+
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    pub(super) fn disc(&self, object: ObjectIndex) -> Disc {
+        let disc = self.scene.object(object).disc();
+        self.place[object.get()].map_or(disc, |centre| disc.at(centre))
+    }
+
+    /// Put an object somewhere; returns what undoes it.
+    pub(super) fn put(&mut self, object: ObjectIndex, centre: Point2<f64>) -> Option<Point2<f64>> {
+        let before = self.place[object.get()].replace(centre);
+        if before.is_none() {
+            self.moved.push(object);
+        }
+        before
+    }
+
+    /// Undo the last [`Layout::put`] of this object.
+    pub(super) fn take_back(&mut self, object: ObjectIndex, before: Option<Point2<f64>>) {
+        self.place[object.get()] = before;
+        if before.is_none() {
+            self.moved.retain(|&other| other != object);
+        }
+    }
+
+    pub(super) fn lift(&mut self, object: ObjectIndex, lifted: bool) {
+        self.lifted[object.get()] = lifted;
+    }
+
+    pub(super) fn is_lifted(&self, object: ObjectIndex) -> bool {
+        self.lifted[object.get()]
+    }
+
+    /// What stands nearer than `reach` (edge to point, m) to `centre`, in a fixed order.
+    pub(super) fn near(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
+        let first = self.scene.index().within(centre, reach).filter(|object| self.place[object.get()].is_none());
+        let moved = self.moved.iter().copied();
+        first.chain(moved).filter(|&object| !self.is_lifted(object)).map(|object| (object, self.disc(object))).filter(
+            move |(_, disc)| {
+                let apart = disc.centre - centre;
+                let far = reach + disc.radius;
+                apart.norm_squared() < far * far
+            },
+        )
+    }
+
+    /// The yaws blocked for a grasp or release of `disc`, which is `object` somewhere.
+    pub(super) fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
+        let gripper = self.scene.gripper();
+        let reach = gripper.corner_distance(disc.radius) + gripper.margin() + extra;
+        let shadows: Vec<ArcSet> = self
+            .near(disc.centre, reach)
+            .filter(|(other, _)| *other != object)
+            .map(|(_, obstacle)| shadow(gripper, disc, &obstacle, extra))
+            .collect();
+        ArcSet::union(gripper.period(), &shadows)
+    }
+
+    /// How an object can be grasped where it stands.
+    pub(super) fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
+        widest_grasp(self.scene.gripper(), &self.blocked(object, &self.disc(object), 0.0))
+    }
+
+    /// Least distance from the disc's edge to another object, m. Infinite where there is none.
+    pub(super) fn gap(&self, object: ObjectIndex, disc: &Disc) -> f64 {
+        let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
+        others.map(|other| disc.gap(&self.disc(other))).fold(f64::INFINITY, f64::min)
+    }
+}

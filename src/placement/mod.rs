@@ -1,0 +1,53 @@
+//! Where relocated objects go.
+//!
+//! A place must be on the table, outside keep-outs, apart from every other object, with a free release yaw, and must leave
+//! every grasp still to come a free yaw. Candidates come from the continuum: where border curves of the free space meet.
+
+mod arrange;
+mod candidates;
+mod curves;
+mod layout;
+
+pub use arrange::{Arrangement, Effort, Task, arrange};
+
+use crate::geometry::Grasp;
+use crate::scene::{ObjectIndex, Scene};
+use nalgebra::Point2;
+
+/// Which of the free places a relocated object goes to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Objective {
+    /// As far from the target as possible (the paper's).
+    #[default]
+    FarFromTarget,
+    /// As near to its old place as possible.
+    ShortMoves,
+}
+
+/// One pick-and-place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relocation {
+    /// What is moved; never the target, never a fixed object.
+    pub object: ObjectIndex,
+    /// Its centre before, m.
+    pub from: Point2<f64>,
+    /// Its centre after, m.
+    pub to: Point2<f64>,
+    /// How it is picked.
+    pub grasp: Grasp,
+    /// How it is let go.
+    pub release: Grasp,
+    /// Least distance to another object at the new place, edge to edge, m.
+    pub gap: f64,
+}
+
+/// How an object can be grasped as the table stands.
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex) -> Option<Grasp> {
+    layout::Layout::new(scene).grasp(object)
+}
+
+/// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.
+const INSIDE: f64 = 1e-6;
+
+/// What a place keeps from others, beyond the margin, where there is room for it, m: an arm can't set dishes in contact.
+const PREFERRED_GAP: f64 = 5e-3;

@@ -1,0 +1,137 @@
+//! What the stated landmarks prove: each is tried by chaining, then their least hitting set is found.
+
+use std::collections::HashMap;
+
+use crate::budget::Interrupted;
+use crate::scene::ObjectIndex;
+
+use super::chain::Chain;
+use super::fault::{FaultCode, Faults};
+use super::hitting::least_hits;
+use super::meter::Meter;
+use super::names::Names;
+
+/// The proven bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Proof {
+    /// No plan has fewer relocations.
+    pub(super) bound: usize,
+    /// True if time sufficed: then the landmarks prove no more than `bound`.
+    pub(super) complete: bool,
+}
+
+/// A landmark that can be tried: sorted members, and its position in the answer.
+struct Landmark {
+    members: Vec<ObjectIndex>,
+    at: usize,
+}
+
+/// Try the landmarks, smallest first, and count what the sound ones prove.
+pub(super) fn prove(
+    stated: &[Vec<String>],
+    names: &Names<'_>,
+    chain: &mut Chain<'_>,
+    faults: &mut Faults,
+    meter: &mut Meter<'_>,
+) -> Proof {
+    let (mut sound, mut complete) = (Sound::default(), true);
+    let tried = readable(stated, names, faults, meter).and_then(|landmarks| {
+        for landmark in landmarks {
+            sound.try_one(landmark, chain, faults, meter)?;
+        }
+        Ok(())
+    });
+    complete &= tried.is_ok();
+    let (sets, width) = sound.numbered();
+    let hits = least_hits(sets, width, meter);
+    Proof { bound: hits.at_least, complete: complete && hits.exact }
+}
+
+/// The landmarks whose members exist and could be moved, smallest first.
+fn readable(
+    stated: &[Vec<String>],
+    names: &Names<'_>,
+    faults: &mut Faults,
+    meter: &mut Meter<'_>,
+) -> Result<Vec<Landmark>, Interrupted> {
+    let mut landmarks = Vec::new();
+    for (at, ids) in stated.iter().enumerate() {
+        meter.spend(1 + ids.len() / 8)?;
+        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(at, id, names, faults)).collect();
+        let Some(mut members) = members else { continue };
+        members.sort_unstable();
+        members.dedup();
+        if members.is_empty() {
+            faults.of_answer(FaultCode::BadLandmark, || format!("landmark {at} has no member"));
+        } else {
+            landmarks.push(Landmark { members, at });
+        }
+    }
+    landmarks.sort_by(|a, b| a.members.len().cmp(&b.members.len()).then_with(|| a.members.cmp(&b.members)));
+    Ok(landmarks)
+}
+
+fn member(at: usize, id: &str, names: &Names<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
+    let object = names.known(id, None, faults)?;
+    if names.relocatable(object) {
+        return Some(object);
+    }
+    let detail = || format!("landmark {at} holds it, and no plan relocates the target or a fixed object");
+    faults.of_object(FaultCode::BadLandmark, id, detail);
+    None
+}
+
+/// The landmarks found sound, none within another.
+#[derive(Default)]
+struct Sound {
+    landmarks: Vec<Vec<ObjectIndex>>,
+    /// The landmarks by their first member.
+    by_first: HashMap<ObjectIndex, Vec<usize>>,
+}
+
+impl Sound {
+    /// A landmark is sound if the target stays blocked while its members are held.
+    fn try_one(
+        &mut self,
+        landmark: Landmark,
+        chain: &mut Chain<'_>,
+        faults: &mut Faults,
+        meter: &mut Meter<'_>,
+    ) -> Result<(), Interrupted> {
+        let Landmark { members, at } = landmark;
+        if self.covers(&members, meter)? {
+            return Ok(());
+        }
+        if chain.frees_target(&members, meter)? {
+            let detail = || format!("the target can be freed without moving any member of landmark {at}");
+            faults.of_answer(FaultCode::LandmarkRefuted, detail);
+            return Ok(());
+        }
+        self.by_first.entry(members[0]).or_default().push(self.landmarks.len());
+        self.landmarks.push(members);
+        Ok(())
+    }
+
+    /// True if a sound landmark is within `members`: those are sound then, as more of them are held, and prove no more.
+    fn covers(&self, members: &[ObjectIndex], meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
+        for first in members {
+            let Some(candidates) = self.by_first.get(first) else { continue };
+            meter.spend(1 + candidates.len() / 8)?;
+            let within = |at: &usize| self.landmarks[*at].iter().all(|member| members.binary_search(member).is_ok());
+            if candidates.iter().any(within) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The landmarks with their members numbered from 0, and how many members there are.
+    fn numbered(&self) -> (Vec<Vec<usize>>, usize) {
+        let mut all: Vec<ObjectIndex> = self.landmarks.iter().flatten().copied().collect();
+        all.sort_unstable();
+        all.dedup();
+        let number = |member: &ObjectIndex| all.partition_point(|other| other < member);
+        let sets = self.landmarks.iter().map(|members| members.iter().map(number).collect());
+        (sets.collect(), all.len())
+    }
+}

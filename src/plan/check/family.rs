@@ -1,0 +1,218 @@
+//! A family of sets to be hit, and what makes it smaller without changing how many elements hit it.
+
+use crate::budget::Interrupted;
+
+use super::meter::Meter;
+
+/// A sorted set of small numbers.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Set {
+    members: Vec<usize>,
+    /// One bit for each residue modulo 64: most pairs that are not subsets show it here.
+    signature: u64,
+}
+
+impl Set {
+    /// `members` in increasing order.
+    pub(super) fn new(members: Vec<usize>) -> Self {
+        let signature = members.iter().fold(0, |bits, member| bits | 1 << (member % 64));
+        Self { members, signature }
+    }
+
+    pub(super) fn members(&self) -> &[usize] {
+        &self.members
+    }
+
+    fn is_within(&self, other: &Self) -> bool {
+        if self.signature & !other.signature != 0 || self.members.len() > other.members.len() {
+            return false;
+        }
+        let mut rest = other.members.iter();
+        self.members.iter().all(|member| rest.by_ref().any(|candidate| candidate == member))
+    }
+
+    pub(super) fn contains(&self, member: usize) -> bool {
+        self.members.binary_search(&member).is_ok()
+    }
+}
+
+/// Sets over the elements 0 to `width` − 1; none is empty.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Family {
+    pub(super) sets: Vec<Set>,
+    pub(super) width: usize,
+}
+
+/// A family without the parts that are decided.
+pub(super) struct Reduced {
+    /// Elements that are taken because a set holds nothing else.
+    pub(super) forced: usize,
+    /// Sets of two or more, none within another, no element worse than another.
+    pub(super) rest: Family,
+}
+
+impl Family {
+    /// Sets that share no element: as many elements are needed at the least. Smallest sets first.
+    pub(super) fn packing(&self) -> usize {
+        let mut order: Vec<&Set> = self.sets.iter().collect();
+        order.sort_by_key(|set| set.members.len());
+        let mut used = vec![false; self.width];
+        let mut count = 0;
+        for set in order {
+            if set.members.iter().all(|member| !used[*member]) {
+                set.members.iter().for_each(|member| used[*member] = true);
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// A bound by shares: every set gets a share such that the sets of no element get more than 1 together; then as many
+    /// elements are needed as the shares add up to (weak duality). A set's share is 1 over the count of sets that its most
+    /// frequent member hits, and then whatever its members have left.
+    pub(super) fn shares(&self) -> usize {
+        let mut count = vec![0.0_f64; self.width];
+        for member in self.sets.iter().flat_map(|set| &set.members) {
+            count[*member] += 1.0;
+        }
+        let most = |set: &Set| set.members.iter().fold(1.0, |most, member| count[*member].max(most));
+        let mut left = vec![1.0_f64; self.width];
+        let mut total = 0.0;
+        let mut order: Vec<(f64, &Set)> = self.sets.iter().map(|set| (1.0 / most(set), set)).collect();
+        for (share, set) in &order {
+            total += share;
+            set.members.iter().for_each(|member| left[*member] -= share);
+        }
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, set) in order {
+            let share = set.members.iter().fold(1.0, |least, member| left[*member].min(least)).max(0.0);
+            total += share;
+            set.members.iter().for_each(|member| left[*member] -= share);
+        }
+        // Rounding adds up to far less than this, and a whole number must not become the next one.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the count of sets")]
+        let whole = (total - 1e-6).ceil().max(0.0) as usize;
+        whole
+    }
+
+    /// The better of the two bounds.
+    pub(super) fn bound(&self) -> usize {
+        self.packing().max(self.shares())
+    }
+
+    /// For each element the positions of the sets that hold it.
+    pub(super) fn columns(&self) -> Vec<Vec<usize>> {
+        let mut columns = vec![Vec::new(); self.width];
+        for (at, set) in self.sets.iter().enumerate() {
+            for member in &set.members {
+                columns[*member].push(at);
+            }
+        }
+        columns
+    }
+
+    /// Work of a pass over all members, in units of the meter.
+    pub(super) fn units(&self) -> usize {
+        1 + (self.sets.iter().map(|set| set.members.len()).sum::<usize>() + self.width) / 200
+    }
+
+    /// Drop supersets, take single members, drop dominated elements, until nothing changes. The least number of elements
+    /// that hit the family is `forced` plus that of the rest.
+    pub(super) fn reduce(mut self, meter: &mut Meter<'_>) -> Result<Reduced, Interrupted> {
+        let mut forced = 0;
+        loop {
+            self.drop_supersets(meter)?;
+            let before = self.sets.len();
+            // What holds a single member's set is a superset and gone already, so nothing else is hit by it.
+            self.sets.retain(|set| set.members.len() > 1);
+            forced += before - self.sets.len();
+            if !self.drop_dominated(meter)? {
+                return Ok(Reduced { forced, rest: self });
+            }
+        }
+    }
+
+    /// What hits a set hits its supersets.
+    fn drop_supersets(&mut self, meter: &mut Meter<'_>) -> Result<(), Interrupted> {
+        self.sets.sort_by(|a, b| a.members.len().cmp(&b.members.len()).then_with(|| a.members.cmp(&b.members)));
+        let mut kept: Vec<Set> = Vec::with_capacity(self.sets.len());
+        for set in self.sets.drain(..) {
+            meter.spend(1 + kept.len() / 200)?;
+            if !kept.iter().any(|smaller| smaller.is_within(&set)) {
+                kept.push(set);
+            }
+        }
+        self.sets = kept;
+        Ok(())
+    }
+
+    /// An element is not needed if another one hits the same sets and perhaps more. True if any was dropped.
+    fn drop_dominated(&mut self, meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
+        let columns: Vec<Set> = self.columns().into_iter().map(Set::new).collect();
+        let mut dropped = vec![false; self.width];
+        for (element, column) in columns.iter().enumerate() {
+            let Some(&first) = column.members.first() else { continue };
+            let rivals = &self.sets[first].members;
+            meter.spend(1 + rivals.len() / 50)?;
+            dropped[element] =
+                rivals.iter().any(|&rival| rival != element && !dropped[rival] && column.is_within(&columns[rival]));
+        }
+        if !dropped.contains(&true) {
+            return Ok(false);
+        }
+        for set in &mut self.sets {
+            *set = Set::new(set.members.iter().copied().filter(|member| !dropped[*member]).collect());
+        }
+        Ok(true)
+    }
+
+    /// The parts that share no element, each with its elements numbered anew.
+    pub(super) fn components(&self) -> Vec<Self> {
+        let columns = self.columns();
+        let mut numbers: Vec<Option<usize>> = vec![None; self.width];
+        let mut seen = vec![false; self.sets.len()];
+        let mut components = Vec::new();
+        for first in 0..self.sets.len() {
+            if seen[first] {
+                continue;
+            }
+            seen[first] = true;
+            let (mut found, mut at, mut width) = (vec![first], 0, 0);
+            while at < found.len() {
+                for &member in &self.sets[found[at]].members {
+                    if numbers[member].is_some() {
+                        continue;
+                    }
+                    numbers[member] = Some(width);
+                    width += 1;
+                    for &other in &columns[member] {
+                        if !core::mem::replace(&mut seen[other], true) {
+                            found.push(other);
+                        }
+                    }
+                }
+                at += 1;
+            }
+            components.push(self.part(&found, &numbers, width));
+        }
+        components
+    }
+
+    fn part(&self, found: &[usize], numbers: &[Option<usize>], width: usize) -> Self {
+        let renumbered = found.iter().map(|&at| {
+            let mut members: Vec<usize> = self.sets[at].members.iter().filter_map(|member| numbers[*member]).collect();
+            members.sort_unstable();
+            Set::new(members)
+        });
+        Self { sets: renumbered.collect(), width }
+    }
+
+    /// What is left to hit once `taken` is taken and `refused` may not be. `None` if nothing can hit it.
+    pub(super) fn after(&self, taken: usize, refused: &[usize]) -> Option<Self> {
+        let left = self.sets.iter().filter(|set| !set.contains(taken)).map(|set| {
+            let members: Vec<usize> = set.members.iter().copied().filter(|member| !refused.contains(member)).collect();
+            (!members.is_empty()).then(|| Set::new(members))
+        });
+        Some(Self { sets: left.collect::<Option<_>>()?, width: self.width })
+    }
+}

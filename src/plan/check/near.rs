@@ -1,0 +1,215 @@
+//! Which discs are near: a tree of boxes over every place where a disc stands at the start or is put by a step.
+//!
+//! All places are known before the replay begins, so the tree never changes; a caller skips the places that are empty at
+//! its moment. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
+
+use nalgebra::{Point2, Vector2};
+use smallvec::SmallVec;
+
+use crate::plan::claim::ClaimedRelocation;
+use crate::scene::{COORDINATE_RANGE, Disc, ObjectIndex, Scene};
+
+use super::names::Names;
+
+/// The number of a place. The n-th object stands on place n at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct PlaceIndex(usize);
+
+/// Every place of the start and of the stated steps.
+pub(super) struct Places {
+    discs: Vec<Disc>,
+    owners: Vec<ObjectIndex>,
+    /// Objects of the scene: the places of the start come first.
+    objects: usize,
+    /// For each step its new place; `None` where the step can't be carried out.
+    of_steps: Vec<Option<PlaceIndex>>,
+    boxes: Vec<Bounds>,
+    /// Place numbers, so that each box holds a run of them.
+    order: Vec<usize>,
+}
+
+struct Bounds {
+    min: Point2<f64>,
+    max: Point2<f64>,
+    largest_radius: f64,
+    run: core::ops::Range<usize>,
+    children: Option<[usize; 2]>,
+}
+
+/// Places in a box that is not divided further.
+const LEAF: usize = 8;
+
+/// True for a coordinate that can be told from its neighbours: a plan outside it is not on any table.
+pub(super) fn resolvable(point: Point2<f64>) -> bool {
+    let (min, max) = (10.0 * COORDINATE_RANGE.0, 10.0 * COORDINATE_RANGE.1);
+    (min..=max).contains(&point.x) && (min..=max).contains(&point.y)
+}
+
+impl Places {
+    pub(super) fn new(scene: &Scene, steps: &[ClaimedRelocation], names: &Names<'_>) -> Self {
+        let mut discs: Vec<Disc> = scene.objects().iter().map(|object| object.disc()).collect();
+        let mut owners: Vec<ObjectIndex> = scene.indices().collect();
+        let of_steps = steps
+            .iter()
+            .map(|step| {
+                let object = names.find(&step.object)?;
+                (names.relocatable(object) && resolvable(step.to)).then(|| {
+                    discs.push(scene.object(object).disc().at(step.to));
+                    owners.push(object);
+                    PlaceIndex(discs.len() - 1)
+                })
+            })
+            .collect();
+        let order = (0..discs.len()).collect();
+        let mut places = Self { discs, owners, objects: scene.objects().len(), of_steps, boxes: Vec::new(), order };
+        places.divide(0..places.order.len());
+        places
+    }
+
+    /// The disc on a place.
+    pub(super) fn disc(&self, place: PlaceIndex) -> Disc {
+        self.discs[place.0]
+    }
+
+    /// Whose place it is.
+    pub(super) fn owner(&self, place: PlaceIndex) -> ObjectIndex {
+        self.owners[place.0]
+    }
+
+    /// Where each object stands at the start.
+    pub(super) fn at_start(&self) -> Vec<PlaceIndex> {
+        (0..self.objects).map(PlaceIndex).collect()
+    }
+
+    /// True for a place of the start.
+    pub(super) fn is_start(&self, place: PlaceIndex) -> bool {
+        place.0 < self.objects
+    }
+
+    /// The new place of a step, if it can be carried out.
+    pub(super) fn of_step(&self, step: usize) -> Option<PlaceIndex> {
+        self.of_steps[step]
+    }
+
+    /// Box the run and divide it at the median of its longer side. Returns the box's number. The depth is logarithmic
+    /// whatever the points are, as a run is halved by rank.
+    fn divide(&mut self, run: core::ops::Range<usize>) -> usize {
+        let bounds = self.bounds(run.clone());
+        let wide = bounds.max.x - bounds.min.x >= bounds.max.y - bounds.min.y;
+        let at = self.boxes.len();
+        self.boxes.push(bounds);
+        if run.len() > LEAF {
+            let discs = &self.discs;
+            let key = |place: &usize| if wide { discs[*place].centre.x } else { discs[*place].centre.y };
+            let half = run.len() / 2;
+            self.order[run.clone()].select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+            let middle = run.start + half;
+            self.boxes[at].children = Some([self.divide(run.start..middle), self.divide(middle..run.end)]);
+        }
+        at
+    }
+
+    fn bounds(&self, run: core::ops::Range<usize>) -> Bounds {
+        let (far, near) =
+            (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
+        let mut bounds = Bounds { min: far, max: near, largest_radius: 0.0, run: run.clone(), children: None };
+        for disc in self.order[run].iter().map(|&place| self.discs[place]) {
+            bounds.min = bounds.min.inf(&disc.centre);
+            bounds.max = bounds.max.sup(&disc.centre);
+            bounds.largest_radius = bounds.largest_radius.max(disc.radius);
+        }
+        bounds
+    }
+
+    /// Visit every place whose disc comes nearer than `reach` to `centre` (edge to point, m).
+    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(PlaceIndex)) {
+        let mut open: SmallVec<[usize; 32]> = SmallVec::from_slice(&[0]);
+        while let Some(at) = open.pop() {
+            let bounds = &self.boxes[at];
+            if bounds.least_gap(centre) >= reach {
+                continue;
+            }
+            if let Some(children) = bounds.children {
+                open.extend(children);
+                continue;
+            }
+            for &place in &self.order[bounds.run.clone()] {
+                let disc = self.discs[place];
+                if (disc.centre - centre).norm() - disc.radius < reach {
+                    visit(PlaceIndex(place));
+                }
+            }
+        }
+    }
+
+    /// The least distance from `centre` to the edge of a disc on a place that `counts`, m; infinite if there is none.
+    pub(super) fn least_gap(&self, centre: Point2<f64>, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
+        let mut least = f64::INFINITY;
+        let mut open: SmallVec<[(usize, f64); 32]> = SmallVec::from_slice(&[(0, f64::NEG_INFINITY)]);
+        while let Some((at, bound)) = open.pop() {
+            if bound >= least {
+                continue;
+            }
+            let bounds = &self.boxes[at];
+            if let Some(children) = bounds.children {
+                let mut pair = children.map(|child| (child, self.boxes[child].least_gap(centre)));
+                // The nearer box is looked at first, so it is pushed last.
+                pair.sort_by(|a, b| b.1.total_cmp(&a.1));
+                open.extend(pair);
+                continue;
+            }
+            for &place in self.order[bounds.run.clone()].iter().filter(|place| counts(PlaceIndex(**place))) {
+                let disc = self.discs[place];
+                least = least.min((disc.centre - centre).norm() - disc.radius);
+            }
+        }
+        least
+    }
+}
+
+impl Bounds {
+    /// No disc with its centre in the box has its edge nearer to the point than this, m.
+    fn least_gap(&self, point: Point2<f64>) -> f64 {
+        let outside = Vector2::new(
+            (self.min.x - point.x).max(point.x - self.max.x).max(0.0),
+            (self.min.y - point.y).max(point.y - self.max.y).max(0.0),
+        );
+        outside.norm() - self.largest_radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::check::scenes::TestScene;
+
+    fn crowd() -> Scene {
+        let mut scene = TestScene::new(3).table(10.0, 10.0);
+        for n in 0..400_u32 {
+            let (x, y) = (f64::from(n % 20) * 0.5 + 0.25, f64::from(n / 20) * 0.5 + 0.25);
+            let radius = if n == 210 { 0.2 } else { 0.001 * f64::from(n * 7 % 40 + 1) };
+            scene = scene.disc(&format!("d{n}"), x, y, radius);
+        }
+        scene.build("d0")
+    }
+
+    #[test]
+    fn the_tree_finds_what_a_scan_finds() {
+        let scene = crowd();
+        let names = Names::new(&scene);
+        let places = Places::new(&scene, &[], &names);
+        for n in 0..100_u32 {
+            let centre = Point2::new(f64::from(n * 37 % 101) / 10.0, f64::from(n * 53 % 97) / 10.0);
+            let gap = |disc: Disc| (disc.centre - centre).norm() - disc.radius;
+            let reach = 0.05 * f64::from(n % 20);
+            let mut found = Vec::new();
+            places.within(centre, reach, |place| found.push(place.0));
+            found.sort_unstable();
+            let scan = scene.objects().iter().enumerate().filter(|(_, object)| gap(object.disc()) < reach);
+            assert_eq!(found, scan.map(|(at, _)| at).collect::<Vec<_>>());
+            let least = places.least_gap(centre, |place| place.0 % 3 == 0);
+            let scan = scene.objects().iter().step_by(3).map(|object| gap(object.disc()));
+            assert_eq!(least, scan.fold(f64::INFINITY, f64::min));
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Carries the steps out, one after the other, and looks at every grasp, every release and every new place.
+
+use core::f64::consts::PI;
+
+use nalgebra::Point2;
+
+use crate::budget::Interrupted;
+use crate::plan::claim::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
+use crate::scene::{Disc, ObjectIndex, Scene};
+
+use super::TOLERANCE;
+use super::fault::{FaultCode, Faults};
+use super::finger::Finger;
+use super::meter::Meter;
+use super::names::Names;
+use super::near::{PlaceIndex, Places, resolvable};
+use super::place::Landing;
+
+/// The largest yaw whose digits still resolve 1e-9 rad after whole turns are taken off.
+const MAX_YAW: f64 = 1e6;
+
+struct Replay<'a> {
+    scene: &'a Scene,
+    places: &'a Places,
+    names: &'a Names<'a>,
+    /// Where each object stands now.
+    standing: Vec<PlaceIndex>,
+    faults: &'a mut Faults,
+    meter: Meter<'a>,
+}
+
+/// Replay the stated steps, then grasp the target. A step that can't be carried out (unknown object, no such place) is
+/// a fault and is passed over; any other faulty step is carried out, so that one fault does not breed more.
+pub(super) fn replay<'a>(
+    scene: &'a Scene,
+    places: &'a Places,
+    names: &'a Names<'a>,
+    claim: &Claim,
+    faults: &'a mut Faults,
+    meter: Meter<'a>,
+) -> Result<(), Interrupted> {
+    let mut replay = Replay { scene, places, names, standing: places.at_start(), faults, meter };
+    let replayed = replay.run(claim);
+    if replayed.is_err() {
+        replay.faults.of_answer(FaultCode::ReplayUnconfirmed, || "time ran out before all steps were replayed".into());
+    }
+    replayed
+}
+
+/// True for an answer that says how the target is grasped in the end.
+pub(super) fn ends_in_grasp(claim: &Claim) -> bool {
+    match claim.verdict {
+        Some(VerdictName::Graspable | VerdictName::Relocate) => true,
+        Some(_) => false,
+        None => claim.relocations.is_some() && claim.deadlock.is_none(),
+    }
+}
+
+impl Replay<'_> {
+    fn run(&mut self, claim: &Claim) -> Result<(), Interrupted> {
+        for (at, step) in claim.relocations.iter().flatten().enumerate() {
+            self.step(at, step)?;
+        }
+        if let Some(grasp) = claim.target_grasp {
+            let target = self.scene.target();
+            return self.grasp(FaultCode::TargetBlocked, None, target, self.disc(target), grasp);
+        }
+        if ends_in_grasp(claim) {
+            self.faults.of_answer(FaultCode::MissingPart, || "a plan needs its target_grasp".into());
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, at: usize, step: &ClaimedRelocation) -> Result<(), Interrupted> {
+        self.meter.spend(1)?;
+        let Some(object) = self.names.known(&step.object, Some(at), self.faults) else { return Ok(()) };
+        let Some(to) = self.places.of_step(at) else {
+            self.refuse(at, object, step.to);
+            return Ok(());
+        };
+        if let Some(from) = step.from {
+            self.stands_as_stated(at, object, from);
+        }
+        self.grasp(FaultCode::GraspBlocked, Some(at), object, self.disc(object), step.grasp)?;
+        let disc = self.places.disc(to);
+        let (scene, places, standing) = (self.scene, self.places, &self.standing);
+        let landing = Landing { scene, places, standing, step: at, object, to: disc };
+        landing.check(step.gap, self.faults, &mut self.meter)?;
+        self.grasp(FaultCode::ReleaseBlocked, Some(at), object, disc, step.release)?;
+        self.standing[object.get()] = to;
+        Ok(())
+    }
+
+    /// Say why a step has no place.
+    fn refuse(&mut self, at: usize, object: ObjectIndex, to: Point2<f64>) {
+        let stated = self.scene.object(object);
+        let mut refuse = |code, why: &str| self.faults.of_step(code, at, stated.id(), || why.to_owned());
+        if object == self.scene.target() {
+            refuse(FaultCode::TargetMoved, "the target is not relocated");
+        } else if stated.fixed() {
+            refuse(FaultCode::FixedObjectMoved, "a fixed object can't be moved");
+        }
+        if !resolvable(to) {
+            refuse(FaultCode::NumberOutOfRange, "the new place is no place on a table");
+        }
+    }
+
+    fn disc(&self, object: ObjectIndex) -> Disc {
+        self.places.disc(self.standing[object.get()])
+    }
+
+    fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Point2<f64>) {
+        let real = self.disc(object).centre;
+        // NaN does not agree with anything.
+        let agrees = (real - stated).norm() <= TOLERANCE;
+        if !agrees {
+            let detail = || format!("stands at ({}, {}), not at ({:e}, {:e})", real.x, real.y, stated.x, stated.y);
+            self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), detail);
+        }
+    }
+
+    /// The band of yaws (rad, on each side) that must be free, if the figures make sense.
+    fn band(&mut self, step: Option<usize>, object: ObjectIndex, grasp: ClaimedGrasp) -> Option<f64> {
+        let (id, gripper) = (self.scene.object(object).id(), self.scene.gripper());
+        let slack = grasp.slack.unwrap_or(0.0);
+        if !(grasp.yaw.abs() <= MAX_YAW && slack.is_finite()) {
+            let detail = || format!("yaw {:e} with slack {slack:e} can't be resolved", grasp.yaw);
+            self.faults.add(FaultCode::NumberOutOfRange, step, Some(id), detail);
+            return None;
+        }
+        let (least, most) = (gripper.yaw_tolerance(), PI / f64::from(gripper.fingers()));
+        // Where nothing blocks, the slack is π/k even if the tolerance is more.
+        let in_range = (least.min(most) - TOLERANCE..=most + TOLERANCE).contains(&slack);
+        if grasp.slack.is_some() && !in_range {
+            let detail = || format!("slack {slack:e} is not between {least} and {most} rad");
+            self.faults.add(FaultCode::WrongSlack, step, Some(id), detail);
+        }
+        Some(slack.clamp(least, most.max(least)))
+    }
+
+    /// The fingers round `disc` meet no other object at any yaw of the band. Names the obstacle that they go deepest into.
+    fn grasp(
+        &mut self,
+        code: FaultCode,
+        step: Option<usize>,
+        object: ObjectIndex,
+        disc: Disc,
+        grasp: ClaimedGrasp,
+    ) -> Result<(), Interrupted> {
+        let Some(band) = self.band(step, object, grasp) else { return Ok(()) };
+        let gripper = self.scene.gripper();
+        let finger = Finger::new(gripper, disc.radius);
+        let (mut near, mut visited) = (Vec::new(), 0);
+        self.places.within(disc.centre, finger.corner_distance() + gripper.margin(), |place| {
+            visited += 1;
+            let owner = self.places.owner(place);
+            if owner != object && self.standing[owner.get()] == place {
+                near.push(owner);
+            }
+        });
+        self.meter.spend(visited / 16)?;
+        let mut worst: Option<(f64, ObjectIndex)> = None;
+        for owner in near {
+            self.meter.spend(1)?;
+            let obstacle = self.disc(owner);
+            let away = finger.closest(gripper, obstacle.centre - disc.centre, grasp.yaw, band);
+            let depth = obstacle.radius + gripper.margin() - away;
+            if depth > TOLERANCE && worst.is_none_or(|(deepest, _)| depth > deepest) {
+                worst = Some((depth, owner));
+            }
+        }
+        if let Some((depth, by)) = worst {
+            let (id, by) = (self.scene.object(object).id(), self.scene.object(by).id());
+            let detail = || format!("a finger comes {depth:.9} m too near to '{by}' at yaw {} ± {band}", grasp.yaw);
+            self.faults.add(code, step, Some(id), detail);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,88 @@
+//! Sets from the search meet places on the table, in order of cost.
+
+use crate::budget::{Budget, Interrupted};
+use crate::knowledge::KnowledgeBase;
+use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
+use crate::scene::{ObjectIndex, Scene};
+use crate::search::{Alternatives, Derivation};
+
+/// The places that may be tried for one answer: a fraction of a second, reached only where space is very short.
+const MAX_PLACES: u32 = 400_000;
+/// The places that may be tried for one set, so that others get their turn.
+const MAX_PLACES_PER_SET: u32 = 50_000;
+/// How many more relocations than the least set has are tried.
+const MAX_EXTRA: usize = 3;
+/// How many sets are tried.
+const MAX_SETS: usize = 32;
+
+/// What is asked.
+pub(super) struct Question<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) base: &'a KnowledgeBase,
+    pub(super) objective: Objective,
+}
+
+/// The cheapest arrangement found: least sets first, then larger ones and extra moves together. `None` if the effort was
+/// spent or the candidates exhausted.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(super) fn arrange_least(
+    question: &Question<'_>,
+    first: Derivation,
+    budget: &Budget<'_>,
+) -> Result<Option<Arrangement>, Interrupted> {
+    let cheapest = first.order.len();
+    let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
+    let mut tried: Vec<Vec<ObjectIndex>> = Vec::new();
+    let mut next = alternatives.next(budget)?;
+    let mut effort = Effort::new(MAX_PLACES);
+    for cost in cheapest..=cheapest + MAX_EXTRA {
+        let smaller = tried.len();
+        while tried.len() < MAX_SETS
+            && let Some(derivation) = next.take_if(|derivation| derivation.order.len() <= cost)
+        {
+            tried.push(derivation.order);
+            if let Some(found) = attempt(question, &tried[tried.len() - 1], cost, &mut effort, budget)? {
+                return Ok(Some(found));
+            }
+            next = alternatives.next(budget)?;
+        }
+        for set in &tried[..smaller] {
+            if let Some(found) = attempt(question, set, cost, &mut effort, budget)? {
+                return Ok(Some(found));
+            }
+        }
+        if effort.left() == 0 {
+            break;
+        }
+    }
+    Ok(None)
+}
+
+/// One set with as many extra moves as the cost allows.
+pub(super) fn attempt(
+    question: &Question<'_>,
+    set: &[ObjectIndex],
+    cost: usize,
+    effort: &mut Effort,
+    budget: &Budget<'_>,
+) -> Result<Option<Arrangement>, Interrupted> {
+    let task = Task { scene: question.scene, set, extra: cost - set.len(), objective: question.objective };
+    let mut part = effort.split(MAX_PLACES_PER_SET);
+    let found = arrange(&task, &mut part, budget);
+    effort.join(part);
+    found
+}
+
+/// One set, without alternatives: for a search that ran out of time with a derivation in hand.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(super) fn arrange_one(
+    question: &Question<'_>,
+    set: &[ObjectIndex],
+    budget: &Budget<'_>,
+) -> Result<Option<Arrangement>, Interrupted> {
+    attempt(question, set, set.len(), &mut Effort::new(MAX_PLACES), budget)
+}

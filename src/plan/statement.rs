@@ -1,0 +1,71 @@
+//! An answer in the words in which it is checked and served.
+
+use super::answer::{Answer, LowerBound, Unplanned, Verdict};
+use super::claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
+use crate::geometry::Grasp;
+use crate::placement::Relocation;
+use crate::scene::{ObjectIndex, Scene};
+
+impl From<Grasp> for ClaimedGrasp {
+    fn from(grasp: Grasp) -> Self {
+        Self { yaw: grasp.yaw, slack: Some(grasp.slack) }
+    }
+}
+
+impl Claim {
+    /// What an answer says, in the words in which it is served.
+    pub fn of(scene: &Scene, answer: &Answer) -> Self {
+        let ids =
+            |objects: &[ObjectIndex]| objects.iter().map(|&o| scene.object(o).id().to_owned()).collect::<Vec<_>>();
+        let bounded = |bound: &LowerBound| Self {
+            lower_bound: Some(bound.cost as u64),
+            landmarks: Some(bound.landmarks.iter().map(|landmark| ids(landmark)).collect()),
+            ..Self::default()
+        };
+        let unplanned = |verdict, unplanned: &Unplanned| Self {
+            verdict: Some(verdict),
+            relocations: Some(Vec::new()),
+            needed: unplanned.needed.as_deref().map(ids),
+            ..bounded(&unplanned.bound)
+        };
+        match &answer.verdict {
+            Verdict::Graspable(grasp) => Self {
+                verdict: Some(VerdictName::Graspable),
+                relocations: Some(Vec::new()),
+                target_grasp: Some((*grasp).into()),
+                cost: Some(0),
+                optimal: Some(true),
+                ..bounded(&LowerBound::default())
+            },
+            Verdict::Relocate(plan) => Self {
+                verdict: Some(VerdictName::Relocate),
+                relocations: Some(plan.relocations.iter().map(|step| ClaimedRelocation::of(scene, step)).collect()),
+                target_grasp: Some(plan.target_grasp.into()),
+                cost: Some(plan.cost() as u64),
+                optimal: Some(plan.optimal()),
+                ..bounded(&plan.bound)
+            },
+            Verdict::Deadlock(deadlock) => Self {
+                verdict: Some(VerdictName::Deadlock),
+                relocations: Some(Vec::new()),
+                deadlock: Some(ClaimedDeadlock { blocked: ids(&deadlock.blocked), core: ids(&deadlock.core) }),
+                ..Self::default()
+            },
+            Verdict::NoSpace(rest) => unplanned(VerdictName::NoSpace, rest),
+            Verdict::TimedOut(rest) => unplanned(VerdictName::TimedOut, rest),
+        }
+    }
+}
+
+impl ClaimedRelocation {
+    fn of(scene: &Scene, step: &Relocation) -> Self {
+        Self {
+            object: scene.object(step.object).id().to_owned(),
+            from: Some(step.from),
+            to: step.to,
+            grasp: step.grasp.into(),
+            release: step.release.into(),
+            gap: Some(step.gap),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The numbered moves: the old place as a ghost, an arrow, the new place, and the open fingers at both.
+
+use nalgebra::Point2;
+use svg::node::element::{Group, Line, Polygon, Title};
+
+use super::discs::{named, outline};
+use super::label;
+use super::paint::{self, Paint, circle, fingers, px, ring};
+use super::view::View;
+use crate::plan::{Grasp, Plan, Relocation, Unplanned};
+use crate::scene::{Disc, Scene, distance};
+
+/// Every relocation and the target's grasp. Arrows and numbers come last: they must not hide under a disc.
+pub(super) fn plan(scene: &Scene, plan: &Plan, view: &View) -> Group {
+    let steps = || plan.relocations.iter().enumerate();
+    let places = steps().fold(Group::new().set("class", "relocations"), |group, (at, step)| {
+        let again = plan.relocations[at + 1..].iter().any(|later| later.object == step.object);
+        group.add(places(scene, at + 1, step, again, view))
+    });
+    let routes = steps()
+        .fold(Group::new().set("class", "routes"), |group, (at, step)| group.add(route(scene, at + 1, step, view)));
+    Group::new().add(places).add(target_grasp(scene, &plan.target_grasp, view)).add(routes)
+}
+
+/// The open fingers at the target.
+pub(super) fn target_grasp(scene: &Scene, grasp: &Grasp, view: &View) -> Group {
+    let disc = scene.object(scene.target()).disc();
+    fingers(disc, grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP).set("class", "fingers target-grasp")
+}
+
+/// The order in which the objects of the best known derivation would have to go.
+pub(super) fn needed(scene: &Scene, known: &Unplanned, view: &View) -> Group {
+    known.needed.iter().flatten().enumerate().fold(Group::new(), |group, (at, &object)| {
+        let disc = scene.object(object).disc();
+        let radius = view.length(disc.radius);
+        let corner = view.point(disc.centre) + nalgebra::Vector2::new(-0.7 * radius, -0.7 * radius);
+        group.add(badge(at + 1, corner, paint::NEEDED, badge_radius(&disc, view)))
+    })
+}
+
+/// One relocation: ghost and grasp at the old place, disc and release at the new one. A place that is left again later
+/// is dashed too.
+fn places(scene: &Scene, number: usize, step: &Relocation, again: bool, view: &View) -> Group {
+    let object = scene.object(step.object);
+    let (old, new) = (object.disc().at(step.from), object.disc().at(step.to));
+    let stroke = outline(&old, view);
+    let ghost = circle(old, view, Paint { fill: paint::PAPER, line: paint::FAINT_INK })
+        .set("fill-opacity", "0.7")
+        .set("stroke-width", px(stroke))
+        .set("stroke-dasharray", "5 3");
+    let mut place = circle(new, view, paint::MOVED).set("stroke-width", px(1.5 * stroke));
+    if again {
+        place = place.set("fill-opacity", "0.4").set("stroke-dasharray", "5 3");
+    }
+    let group = Group::new()
+        .set("class", "relocation")
+        .add(Title::new(label::clean(&format!("{number}: {}", object.id()))))
+        .add(ghost)
+        .add(fingers(old, step.grasp.yaw, scene.gripper(), view, paint::GRASP))
+        .add(place)
+        .add(fingers(new, step.release.yaw, scene.gripper(), view, paint::RELEASE));
+    let group = named(group, object.id(), &old, Paint { fill: paint::PAPER, line: paint::FAINT_INK }, view);
+    named(group, object.id(), &new, paint::MOVED, view)
+}
+
+/// The arrow from edge to edge, and the step's number at the new place.
+fn route(scene: &Scene, number: usize, step: &Relocation, view: &View) -> Group {
+    let disc = scene.object(step.object).disc();
+    let radius = view.length(disc.radius);
+    let (from, to) = (view.point(step.from), view.point(step.to));
+    let size = badge_radius(&disc, view);
+    let badge = badge(number, to + nalgebra::Vector2::new(-0.75 * radius, -0.75 * radius), paint::MOVED, size);
+    let group = Group::new().set("class", "route");
+    let length = distance(from, to);
+    if length < 1.0 {
+        return group.add(badge);
+    }
+    let along = (to - from) / length;
+    // Where the two places overlap the arrow would have no length: it runs from centre to centre instead.
+    let inset = if length > 2.6 * radius { radius } else { 0.0 };
+    let (start, tip) = (from + along * inset, to - along * inset);
+    // The number at both ends: where many arrows cross, nobody can follow one.
+    group.add(arrow(start, tip, size)).add(self::badge(number, start, paint::GRASP, 0.8 * size)).add(badge)
+}
+
+fn arrow(start: Point2<f64>, tip: Point2<f64>, size: f64) -> Group {
+    let length = distance(start, tip);
+    let along = (tip - start) / length;
+    let head = size.min(length / 2.0);
+    let across = nalgebra::Vector2::new(-along.y, along.x) * head * 0.45;
+    let neck = tip - along * head;
+    let shaft = Line::new()
+        .set("x1", px(start.x))
+        .set("y1", px(start.y))
+        .set("x2", px(neck.x))
+        .set("y2", px(neck.y))
+        .set("stroke", paint::INK)
+        .set("stroke-width", px((size / 5.0).min(2.0)));
+    let corners = [tip, neck + across, neck - across];
+    Group::new()
+        .set("opacity", "0.8")
+        .add(shaft)
+        .add(Polygon::new().set("points", paint::points(corners)).set("fill", paint::INK))
+}
+
+/// A number in a filled circle.
+pub(super) fn badge(number: usize, at: Point2<f64>, paint: Paint, radius: f64) -> Group {
+    let text = number.to_string();
+    let size = (1.5 * radius).min(1.7 * radius / label::width(&text, 1.0));
+    Group::new()
+        .set("class", "number")
+        .add(ring(at, radius, paint::PAPER).set("fill", paint.line).set("stroke-width", px(radius / 8.0)))
+        .add(label::centred(&text, size, at).set("fill", paint::PAPER).set("font-weight", "bold"))
+}
+
+/// Large enough to be read even where the discs are small.
+fn badge_radius(disc: &Disc, view: &View) -> f64 {
+    (0.3 * view.length(disc.radius)).clamp(8.0, 14.0)
+}

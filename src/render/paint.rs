@@ -1,0 +1,94 @@
+//! The colours, and the few shapes that everything is made of.
+
+use core::f64::consts::TAU;
+
+use nalgebra::Point2;
+use svg::node::element::{Circle, Group, Polygon};
+
+use super::view::View;
+use crate::scene::{Disc, Gripper};
+
+pub(super) const PAPER: &str = "#ffffff";
+pub(super) const INK: &str = "#202124";
+pub(super) const FAINT_INK: &str = "#5f6368";
+pub(super) const TABLE: &str = "#fbf7ef";
+pub(super) const TABLE_EDGE: &str = "#8d6e4a";
+pub(super) const KEEP_OUT: &str = "#d7b9a0";
+pub(super) const FIXED_HATCH: &str = "#b4b9be";
+
+/// Fill and outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Paint {
+    pub(super) fill: &'static str,
+    pub(super) line: &'static str,
+}
+
+pub(super) const OBSTACLE: Paint = Paint { fill: "#e3e7ea", line: "#6b7177" };
+pub(super) const FIXED: Paint = Paint { fill: "url(#fixed)", line: "#3c4043" };
+pub(super) const TARGET: Paint = Paint { fill: "#ffd54f", line: "#8a5a00" };
+pub(super) const MOVED: Paint = Paint { fill: "#b7e1cd", line: "#137a43" };
+pub(super) const NEEDED: Paint = Paint { fill: "#d7e3fc", line: "#1a56c4" };
+pub(super) const CORE: Paint = Paint { fill: "#d32f2f", line: "#7f0000" };
+pub(super) const BLOCKED: Paint = Paint { fill: "#f8caca", line: "#b3544f" };
+/// The fingers as they pick an object at its old place.
+pub(super) const GRASP: Paint = Paint { fill: "#1a73e8", line: "#0b4aa2" };
+/// The fingers as they let it go at the new one.
+pub(super) const RELEASE: Paint = Paint { fill: "#34a853", line: "#137a43" };
+/// The fingers as they pick the target.
+pub(super) const TARGET_GRASP: Paint = Paint { fill: "#f29900", line: "#8a5a00" };
+
+/// A number of pixels: two digits are more than any screen shows.
+pub(super) fn px(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A disc.
+pub(super) fn circle(disc: Disc, view: &View, paint: Paint) -> Circle {
+    let centre = view.point(disc.centre);
+    ring(centre, view.length(disc.radius), paint.line).set("fill", paint.fill)
+}
+
+/// An outline without a fill, px.
+pub(super) fn ring(centre: Point2<f64>, radius: f64, line: &str) -> Circle {
+    Circle::new()
+        .set("cx", px(centre.x))
+        .set("cy", px(centre.y))
+        .set("r", px(radius))
+        .set("fill", "none")
+        .set("stroke", line)
+}
+
+/// Corner points as the `points` of a polygon.
+pub(super) fn points(corners: impl IntoIterator<Item = Point2<f64>>) -> String {
+    corners.into_iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
+}
+
+/// The k open fingers round `disc` at `yaw`: rectangles [r, r + c] × [−w/2, w/2], turned. Finger 0 has a dot.
+pub(super) fn fingers(disc: Disc, yaw: f64, gripper: &Gripper, view: &View, paint: Paint) -> Group {
+    let (inner, outer) = (disc.radius, disc.radius + gripper.clearance());
+    let half = gripper.finger_width() / 2.0;
+    let mut group = Group::new()
+        .set("class", "fingers")
+        .set("fill", paint.fill)
+        .set("fill-opacity", "0.55")
+        .set("stroke", paint.line)
+        .set("stroke-width", "1");
+    for finger in 0..gripper.fingers() {
+        let angle = yaw + TAU * f64::from(finger) / f64::from(gripper.fingers());
+        let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+        let at = |along: f64, across: f64| {
+            let (x, y) = (along * cos - across * sin, along * sin + across * cos);
+            view.point(Point2::new(disc.centre.x + x, disc.centre.y + y))
+        };
+        let corners = [at(inner, -half), at(outer, -half), at(outer, half), at(inner, half)];
+        group = group.add(Polygon::new().set("points", points(corners)));
+        if finger == 0 {
+            let dot = view.length(half.min(gripper.clearance() / 2.0)) * 0.45;
+            let dot = ring(at((inner + outer) / 2.0, 0.0), dot, "none").set("fill", paint.line);
+            group = group.add(dot.set("fill-opacity", "1"));
+        }
+    }
+    group
+}

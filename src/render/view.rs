@@ -1,0 +1,97 @@
+//! From metres on the table to pixels of the drawing.
+
+use nalgebra::Point2;
+
+use crate::plan::{Answer, Verdict};
+use crate::scene::{Disc, Scene};
+
+/// Room round everything, px.
+pub(super) const PADDING: f64 = 24.0;
+/// Room above the table for the headline, px.
+const HEADER: f64 = 84.0;
+/// The largest table in the drawing, px.
+const LARGEST: (f64, f64) = (1000.0, 800.0);
+/// The least width, px, so that headline and legend have room beside a narrow table.
+const LEAST_WIDTH: f64 = 720.0;
+/// How much of what stands out over the table's edge is shown, as a share of the table's longer side.
+const OVERHANG: f64 = 0.2;
+
+/// The part of the world that is drawn, and its scale.
+#[derive(Debug)]
+pub(super) struct View {
+    /// px per metre.
+    scale: f64,
+    /// Upper left corner of what is drawn, m.
+    corner: Point2<f64>,
+    /// Where that corner is, px.
+    origin: (f64, f64),
+    /// What is drawn, px.
+    extent: (f64, f64),
+}
+
+impl View {
+    /// The table to scale, with what stands out over its edge.
+    pub(super) fn new(scene: &Scene, answer: &Answer) -> Self {
+        let top = scene.table().top();
+        let (mut min, mut max) = (top.min(), top.max());
+        let allowance = OVERHANG * (max.x - min.x).max(max.y - min.y);
+        for Disc { centre, radius } in drawn(scene, answer) {
+            min = Point2::new(min.x.min(centre.x - radius), min.y.min(centre.y - radius));
+            max = Point2::new(max.x.max(centre.x + radius), max.y.max(centre.y + radius));
+        }
+        let (left, right) = (min.x.max(top.min().x - allowance), max.x.min(top.max().x + allowance));
+        let (below, above) = (min.y.max(top.min().y - allowance), max.y.min(top.max().y + allowance));
+        let scale = (LARGEST.0 / (right - left)).min(LARGEST.1 / (above - below));
+        let extent = ((right - left) * scale, (above - below) * scale);
+        let origin = (PADDING + (LEAST_WIDTH - 2.0 * PADDING - extent.0).max(0.0) / 2.0, HEADER);
+        Self { scale, corner: Point2::new(left, above), origin, extent }
+    }
+
+    /// px per metre.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// A length, px.
+    pub(super) fn length(&self, metres: f64) -> f64 {
+        metres * self.scale
+    }
+
+    /// A point, px. The table's y points up, the drawing's down.
+    pub(super) fn point(&self, at: Point2<f64>) -> Point2<f64> {
+        let (x, y) = (self.length(at.x - self.corner.x), self.length(self.corner.y - at.y));
+        Point2::new(self.origin.0 + x, self.origin.1 + y)
+    }
+
+    /// Where the table is drawn: x, y, width, height, px, with room for the strokes.
+    pub(super) fn frame(&self) -> (f64, f64, f64, f64) {
+        let ((x, y), (width, height)) = (self.origin, self.extent);
+        (x - 3.0, y - 3.0, width + 6.0, height + 6.0)
+    }
+
+    /// The whole drawing's width, px.
+    pub(super) fn width(&self) -> f64 {
+        (self.extent.0 + 2.0 * PADDING).max(LEAST_WIDTH)
+    }
+
+    /// Height of headline and table, px; the legend comes below.
+    pub(super) fn height(&self) -> f64 {
+        HEADER + self.extent.1 + PADDING
+    }
+}
+
+/// Every disc that has to be seen: objects where they stand, and the reach of every drawn grasp.
+fn drawn<'a>(scene: &'a Scene, answer: &'a Answer) -> impl Iterator<Item = Disc> + 'a {
+    let reach = |disc: Disc| Disc { radius: scene.gripper().corner_distance(disc.radius), ..disc };
+    let relocations = match &answer.verdict {
+        Verdict::Relocate(plan) => plan.relocations.as_slice(),
+        _ => &[],
+    };
+    let moved = relocations.iter().flat_map(move |step| {
+        let disc = scene.object(step.object).disc();
+        [reach(disc.at(step.from)), reach(disc.at(step.to))]
+    });
+    let grasped = matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_));
+    let target = grasped.then(|| reach(scene.object(scene.target()).disc()));
+    scene.objects().iter().map(crate::scene::Object::disc).chain(moved).chain(target)
+}

@@ -1,0 +1,149 @@
+//! The part of a knowledge base that one question is about, in dense numbers.
+
+use crate::budget::{Budget, Interrupted};
+use crate::knowledge::KnowledgeBase;
+use crate::scene::ObjectIndex;
+
+use super::chain::Chain;
+use super::least::Restriction;
+
+/// An object of the problem; the target is numbered after all others.
+pub(super) type Node = u32;
+
+/// Rules over nodes, without those that can't be part of any plan: with the target, a held or an underivable object in
+/// their body, or of objects on which the target does not depend.
+#[derive(Debug)]
+pub(super) struct Problem {
+    /// Node to object, the target last.
+    objects: Vec<ObjectIndex>,
+    /// Per rule its head.
+    heads: Vec<Node>,
+    bodies: Lists,
+    condition_of: Lists,
+}
+
+/// Many short lists in one.
+#[derive(Debug, Default)]
+pub(super) struct Lists {
+    first: Vec<u32>,
+    entries: Vec<u32>,
+}
+
+impl Lists {
+    fn from_pairs(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut first = vec![0_u32; count + 1];
+        pairs.clone().for_each(|(list, _)| first[list as usize + 1] += 1);
+        for at in 1..first.len() {
+            first[at] += first[at - 1];
+        }
+        let mut next = first.clone();
+        let mut entries = vec![0; first[count] as usize];
+        for (list, entry) in pairs {
+            let slot = &mut next[list as usize];
+            entries[*slot as usize] = entry;
+            *slot += 1;
+        }
+        Self { first, entries }
+    }
+
+    pub(super) fn get(&self, list: u32) -> &[u32] {
+        &self.entries[self.first[list as usize] as usize..self.first[list as usize + 1] as usize]
+    }
+}
+
+impl Problem {
+    /// `Ok(None)` if the target can't be derived.
+    pub(super) fn new(
+        base: &KnowledgeBase,
+        target: ObjectIndex,
+        restriction: &Restriction,
+        budget: &Budget<'_>,
+    ) -> Result<Option<Self>, Interrupted> {
+        let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
+        let all = Self::reached(base, target, |option| !option.iter().any(held), budget)?;
+        let mut chain = Chain::new(&all);
+        (0..all.target()).for_each(|node| chain.allow(node));
+        if !chain.reaches_target() {
+            return Ok(None);
+        }
+        let mut derivable = vec![false; base.len()];
+        chain.moved().for_each(|node| derivable[all.object(node).get()] = true);
+        Self::reached(base, target, |option| option.iter().all(|member| derivable[member.get()]), budget).map(Some)
+    }
+
+    /// What the target depends on through options that are `usable`: breadth first backwards from the target, numbered
+    /// in reverse, so that whatever is near the target comes late.
+    fn reached(
+        base: &KnowledgeBase,
+        target: ObjectIndex,
+        usable: impl Fn(&[ObjectIndex]) -> bool,
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
+        let mut seen = vec![false; base.len()];
+        let mut objects = vec![target];
+        let mut at = 0;
+        while let Some(&object) = objects.get(at) {
+            at += 1;
+            budget.check()?;
+            for &member in base.options(object).filter(|option| usable(option)).flatten() {
+                if !core::mem::replace(&mut seen[member.get()], true) {
+                    objects.push(member);
+                }
+            }
+        }
+        objects.reverse();
+        Ok(Self::over(base, objects, usable))
+    }
+
+    fn over(base: &KnowledgeBase, objects: Vec<ObjectIndex>, usable: impl Fn(&[ObjectIndex]) -> bool) -> Self {
+        let mut node_of = vec![Node::MAX; base.len()];
+        objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
+        let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
+        for &object in &objects {
+            for option in base.options(object).filter(|option| usable(option)) {
+                #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+                let rule = heads.len() as u32;
+                heads.push(node_of[object.get()]);
+                members.extend(option.iter().map(|member| (rule, node_of[member.get()])));
+            }
+        }
+        let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
+        let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
+        Self { objects, heads, bodies, condition_of }
+    }
+
+    /// The number of nodes besides the target.
+    pub(super) fn movable(&self) -> usize {
+        self.objects.len() - 1
+    }
+
+    pub(super) fn target(&self) -> Node {
+        #[expect(clippy::cast_possible_truncation, reason = "a scene holds fewer than 2^32 objects")]
+        let last = self.movable() as Node;
+        last
+    }
+
+    pub(super) fn rules(&self) -> usize {
+        self.heads.len()
+    }
+
+    pub(super) fn head(&self, rule: u32) -> Node {
+        self.heads[rule as usize]
+    }
+
+    pub(super) fn body(&self, rule: u32) -> &[Node] {
+        self.bodies.get(rule)
+    }
+
+    pub(super) fn condition_of(&self, node: Node) -> &[u32] {
+        self.condition_of.get(node)
+    }
+
+    pub(super) fn object(&self, node: Node) -> ObjectIndex {
+        self.objects[node as usize]
+    }
+
+    pub(super) fn node(&self, object: ObjectIndex) -> Option<Node> {
+        self.objects.iter().zip(0..).find(|(other, _)| **other == object).map(|(_, node)| node)
+    }
+}

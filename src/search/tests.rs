@@ -1,0 +1,151 @@
+//! The search against an exhaustive solver.
+
+use super::{LeastSet, Outcome, Restriction, least};
+use crate::budget::Budget;
+use crate::knowledge::{KnowledgeBase, close};
+use crate::scene::ObjectIndex;
+use proptest::prelude::*;
+
+fn base(options: &[Vec<Vec<usize>>]) -> KnowledgeBase {
+    let set = |members: &Vec<usize>| members.iter().copied().map(ObjectIndex::new).collect();
+    options.iter().map(|list| list.iter().map(set).collect()).collect()
+}
+
+/// Does the target follow when only `movable` may be moved? Chains round by round, straight from the definition.
+fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
+    let mut moved = 0_u32;
+    loop {
+        let graspable = |object: usize| options[object].iter().any(|o| o.iter().all(|&m| moved >> m & 1 == 1));
+        if graspable(target) {
+            return true;
+        }
+        let next = (0..options.len())
+            .filter(|&object| object != target && movable >> object & 1 == 1 && graspable(object))
+            .fold(0, |set, object| set | 1 << object);
+        if next == moved {
+            return false;
+        }
+        moved = next;
+    }
+}
+
+fn exhaustive(options: &[Vec<Vec<usize>>], target: usize) -> Option<u32> {
+    (0_u32..1 << options.len()).filter(|&set| follows(options, target, set)).map(u32::count_ones).min()
+}
+
+fn check(options: &[Vec<Vec<usize>>], target: usize) -> Option<LeastSet> {
+    let outcome = least(&base(options), ObjectIndex::new(target), &Restriction::default(), &Budget::unlimited());
+    let expected = exhaustive(options, target);
+    let found = match outcome {
+        Outcome::Least(found) => found,
+        Outcome::Underivable => {
+            assert_eq!(expected, None);
+            return None;
+        }
+        Outcome::Interrupted(_) => unreachable!("the budget never ends"),
+    };
+    let order: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
+    assert_eq!(Some(u32::try_from(order.len()).unwrap()), expected, "{order:?}");
+    assert_eq!(found.bound, order.len());
+    for (at, &object) in order.iter().enumerate() {
+        assert!(options[object].iter().any(|option| option.iter().all(|m| order[..at].contains(m))), "{order:?}");
+    }
+    assert!(options[target].iter().any(|option| option.iter().all(|m| order.contains(m))));
+    let all = (1_u32 << options.len()) - 1;
+    let masks: Vec<u32> =
+        found.landmarks.iter().map(|l| l.iter().fold(0, |set, object| set | 1 << object.get())).collect();
+    assert!(masks.iter().all(|landmark| !follows(options, target, all & !landmark)), "{:?}", found.landmarks);
+    let hitting = (0..=all).filter(|set| masks.iter().all(|mask| mask & set != 0)).map(u32::count_ones).min();
+    assert_eq!(hitting, expected, "the landmarks prove the bound: {:?}", found.landmarks);
+    Some(found)
+}
+
+#[test]
+fn an_object_needed_at_two_depths_is_no_cycle() {
+    // t←{a,b}, a←{b}, b←{c}, c free.
+    let found = check(&[vec![vec![1, 2]], vec![vec![2]], vec![vec![3]], vec![vec![]]], 0).expect("derivable");
+    assert_eq!(found.derivation.order, [3, 2, 1].map(ObjectIndex::new));
+}
+
+#[test]
+fn what_needs_the_target_gone_is_no_way_to_the_target() {
+    assert_eq!(check(&[vec![vec![1]], vec![vec![0]]], 0), None);
+    let found = check(&[vec![vec![1]], vec![vec![0], vec![2]], vec![vec![]]], 0).expect("derivable");
+    assert_eq!(found.bound, 2);
+}
+
+#[test]
+fn a_graspable_target_needs_nothing() {
+    assert_eq!(check(&[vec![vec![]], vec![vec![0]]], 0), Some(LeastSet::default()));
+}
+
+#[test]
+fn sets_come_in_order_under_restrictions() {
+    let base = base(&[vec![vec![1], vec![2, 3]], vec![vec![]], vec![vec![]], vec![vec![]]]);
+    let solve = |held: &[usize], required: &[usize]| {
+        let set = |list: &[usize]| list.iter().copied().map(ObjectIndex::new).collect();
+        let restriction = Restriction { held: set(held), required: set(required) };
+        match least(&base, ObjectIndex::new(0), &restriction, &Budget::unlimited()) {
+            Outcome::Least(found) => {
+                let mut set: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
+                set.sort_unstable();
+                Some(set)
+            }
+            _ => None,
+        }
+    };
+    assert_eq!(solve(&[], &[]), Some(vec![1]));
+    assert_eq!(solve(&[1], &[]), Some(vec![2, 3]));
+    assert_eq!(solve(&[1, 2], &[]), None);
+    assert_eq!(solve(&[1], &[3]), Some(vec![2, 3]));
+}
+
+fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {
+    let option = proptest::collection::vec(0..objects, 1..4);
+    let list = prop_oneof![
+        1 => Just(vec![vec![]]),
+        1 => Just(vec![]),
+        6 => proptest::collection::vec(option, 1..5),
+    ];
+    proptest::collection::vec(list, objects)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn the_least_set_is_what_exhaustion_finds(options in (2_usize..11).prop_flat_map(options)) {
+        check(&options, 0);
+    }
+
+    #[test]
+    fn an_interrupted_search_claims_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..40) {
+        struct After(core::cell::Cell<u32>);
+        impl crate::budget::Clock for After {
+            fn elapsed(&self) -> core::time::Duration { core::time::Duration::ZERO }
+            fn cancelled(&self) -> bool {
+                let left = self.0.get();
+                self.0.set(left.saturating_sub(1));
+                left == 0
+            }
+        }
+        let clock = After(core::cell::Cell::new(looks));
+        let budget = Budget::new(&clock, core::time::Duration::MAX);
+        let outcome = least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget);
+        let expected = exhaustive(&options, 0);
+        match outcome {
+            Outcome::Underivable => prop_assert_eq!(expected, None),
+            Outcome::Interrupted(None) => {}
+            Outcome::Least(found) | Outcome::Interrupted(Some(found)) => {
+                let expected = expected.expect("derivable") as usize;
+                prop_assert!(found.bound <= expected && expected <= found.derivation.order.len());
+            }
+        }
+    }
+
+    #[test]
+    fn chaining_agrees_with_its_definition(options in (2_usize..11).prop_flat_map(options)) {
+        let closure = close(&base(&options), |object| object.get() == 0, &Budget::unlimited()).expect("unlimited");
+        prop_assert_eq!(closure.derives(ObjectIndex::new(0)), follows(&options, 0, u32::MAX));
+    }
+}

@@ -1,0 +1,54 @@
+//! Every golden base through the search.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde::Deserialize;
+use singulate::budget::Budget;
+use singulate::knowledge::{KnowledgeBase, close};
+use singulate::scene::ObjectIndex;
+use singulate::search::{Outcome, Restriction, least};
+
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    target: String,
+    options: BTreeMap<String, Vec<Vec<String>>>,
+    expected: Expected,
+}
+
+#[derive(Deserialize)]
+struct Expected {
+    verdict: String,
+    relocations: Option<usize>,
+}
+
+#[test]
+fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
+    let cases: Vec<Case> = serde_json::from_str(include_str!("../golden/bases.json")).unwrap();
+    assert_eq!(cases.len(), 84);
+    for case in cases {
+        let index: HashMap<&str, ObjectIndex> =
+            case.options.keys().enumerate().map(|(at, id)| (id.as_str(), ObjectIndex::new(at))).collect();
+        let base: KnowledgeBase = case
+            .options
+            .values()
+            .map(|options| options.iter().map(|option| option.iter().map(|id| index[id.as_str()]).collect()).collect())
+            .collect();
+        let target = index[case.target.as_str()];
+        let started = std::time::Instant::now();
+        match least(&base, target, &Restriction::default(), &Budget::unlimited()) {
+            Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
+            Outcome::Least(found) => {
+                eprintln!("{} {:?} {} landmarks {}", case.name, started.elapsed(), found.bound, found.landmarks.len());
+                assert_eq!(Some(found.bound), case.expected.relocations, "{}", case.name);
+                assert_eq!(found.derivation.order.len(), found.bound, "{}", case.name);
+                for landmark in &found.landmarks {
+                    let held = |object| object == target || landmark.contains(&object);
+                    let closure = close(&base, held, &Budget::unlimited()).unwrap();
+                    assert!(!closure.derives(target), "{}: {landmark:?} is no landmark", case.name);
+                }
+            }
+            Outcome::Interrupted(_) => unreachable!("the budget never ends"),
+        }
+    }
+}
