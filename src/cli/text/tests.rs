@@ -135,7 +135,7 @@ fn a_survey_is_one_line_an_object() {
 #[test]
 fn a_verification_lists_its_faults_with_steps_counted_from_one() {
     let fault = FaultBody {
-        code: "blocked_grasp".to_owned(),
+        code: "blocked_grasp",
         step: Some(0),
         object: Some("plate-2".to_owned()),
         detail: "finger 1 is 3 mm inside 'vase'".to_owned(),
