@@ -4,6 +4,7 @@
 use core::time::Duration;
 use std::io;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use tokio::sync::Semaphore;
@@ -48,6 +49,7 @@ pub struct App {
     pub(super) engine: Engine,
     pub(super) pool: Pool,
     large_bodies: Semaphore,
+    draining: AtomicBool,
 }
 
 /// The body of a response.
@@ -60,7 +62,18 @@ impl App {
     /// If the system gives no thread.
     pub fn new(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
         let pool = Pool::new(settings.threads, settings.queue)?;
-        Ok(Self { settings, engine, pool, large_bodies: Semaphore::new(settings.threads.max(1)) })
+        let large_bodies = Semaphore::new(settings.threads.max(1));
+        Ok(Self { settings, engine, pool, large_bodies, draining: AtomicBool::new(false) })
+    }
+
+    /// From now on the service says that it is not ready, though it still answers what reaches it.
+    pub(super) fn drain(&self) {
+        self.draining.store(true, Ordering::Relaxed);
+    }
+
+    /// True if new requests are welcome.
+    pub(super) fn ready(&self) -> bool {
+        !self.draining.load(Ordering::Relaxed) && self.pool.ready()
     }
 
     /// Read a body, a large one away from the threads that serve connections.

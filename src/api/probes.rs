@@ -51,7 +51,11 @@ pub(super) async fn livez() -> Json<ProbeBody> {
      headers(("Retry-After" = u32, description = "When to ask again, s."))),
 ))]
 pub(super) async fn readyz(State(app): State<Arc<App>>) -> Result<Json<ProbeBody>, Problem> {
-    if app.pool.ready() { Ok(OK) } else { Err(Problem::new(ProblemKind::NotReady, "the planning pool is closed")) }
+    if app.ready() {
+        Ok(OK)
+    } else {
+        Err(Problem::new(ProblemKind::NotReady, "shutting down, or a planning thread died"))
+    }
 }
 
 /// Which build answers?
@@ -62,4 +66,30 @@ pub(super) async fn readyz(State(app): State<Arc<App>>) -> Result<Json<ProbeBody
 ))]
 pub(super) async fn version() -> Json<VersionBody> {
     Json(VersionBody { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") })
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::body::Body;
+    use axum::http::{Request, StatusCode};
+    use tower::ServiceExt;
+
+    use super::*;
+    use crate::api::{Engine, ServerSettings, router};
+
+    async fn ask(app: &Arc<App>) -> StatusCode {
+        let request = Request::get("/readyz").body(Body::empty()).unwrap();
+        router(Arc::clone(app)).oneshot(request).await.unwrap().status()
+    }
+
+    #[tokio::test]
+    async fn a_service_that_drains_or_lost_its_pool_is_not_ready() {
+        let app = Arc::new(App::new(ServerSettings::default(), Engine::default()).unwrap());
+        assert_eq!(ask(&app).await, StatusCode::OK);
+        app.drain();
+        assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
+        let app = Arc::new(App::new(ServerSettings::default(), Engine::default()).unwrap());
+        app.pool.close();
+        assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
+    }
 }

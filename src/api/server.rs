@@ -69,6 +69,7 @@ pub async fn run_with(
             while connections.try_join_next().is_some() {}
         }
     }
+    app.drain();
     drop(listener);
     let last_answer = settings.body_timeout + settings.limits.max_time_limit;
     if timeout(last_answer + FAREWELL, graceful.shutdown()).await.is_err() {

@@ -1,8 +1,7 @@
 //! A free yaw for a grasp or a release.
 
 use super::arcs::{ArcSet, wrap};
-use super::shadow::shadow;
-use crate::scene::{Disc, Gripper};
+use crate::scene::Gripper;
 
 /// A yaw that is free, with the room round it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,18 +10,6 @@ pub struct Grasp {
     pub yaw: f64,
     /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
     pub slack: f64,
-}
-
-/// The union of the obstacles' shadows on a grasp of `grasped`; see [`shadow`] for `extra`.
-pub fn free_yaws<'a>(
-    gripper: &Gripper,
-    grasped: &Disc,
-    obstacles: impl IntoIterator<Item = &'a Disc>,
-    extra: f64,
-) -> ArcSet {
-    let shadows: Vec<ArcSet> =
-        obstacles.into_iter().map(|obstacle| shadow(gripper, grasped, obstacle, extra)).collect();
-    ArcSet::union(gripper.period(), &shadows)
 }
 
 /// An interval's width is a difference of sums of angles; what knowledge counts as wide enough must be so here, rad.

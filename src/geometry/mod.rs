@@ -9,5 +9,5 @@ mod shadow;
 
 pub use arcs::{Arc, ArcSet, FreeInterval};
 pub use finger::{BlockedOffsets, SweptFinger};
-pub use grasp::{Grasp, free_yaws, widest_grasp};
+pub use grasp::{Grasp, widest_grasp};
 pub use shadow::shadow;

@@ -1,5 +1,7 @@
 //! Runs computations on threads of their own, so that waiting for them costs the rest of the service nothing.
 
+mod pending;
 mod pool;
 
-pub use pool::{Outcome, Pending, Pool, Refused};
+pub use pending::{Outcome, Pending};
+pub use pool::{Pool, Refused};

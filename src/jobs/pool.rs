@@ -3,22 +3,14 @@
 
 use std::collections::VecDeque;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use tokio::sync::oneshot;
-use tokio::time::sleep_until;
 
-use crate::budget::{Budget, Clock};
-
-/// How long after the deadline a running job may still deliver. The answer must leave within 50 ms of it.
-const DELIVERY_GRACE: Duration = Duration::from_millis(40);
-
-/// A limit too long to be added to a clock's time stands for this one.
-const FAR: Duration = Duration::from_hours(24 * 365);
+use super::pending::{Pending, Ticket};
+use crate::budget::Budget;
 
 /// A fixed number of threads and the jobs that wait for them.
 #[derive(Debug)]
@@ -36,24 +28,6 @@ pub enum Refused {
     /// The pool takes no more jobs.
     #[error("the pool is closed")]
     Closed,
-}
-
-/// What became of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome<T> {
-    /// It came to an end.
-    Done(T),
-    /// Its deadline passed first.
-    TimedOut,
-    /// It panicked.
-    Panicked,
-}
-
-/// A job that was taken. Dropping this cancels it.
-#[derive(Debug)]
-pub struct Pending<T> {
-    ticket: Arc<Ticket>,
-    reply: oneshot::Receiver<Outcome<T>>,
 }
 
 #[derive(Debug)]
@@ -78,36 +52,6 @@ struct Waiting {
 impl core::fmt::Debug for Waiting {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         self.ticket.fmt(f)
-    }
-}
-
-/// What the caller and the thread share about one job.
-#[derive(Debug)]
-struct Ticket {
-    arrival: Instant,
-    time_limit: Duration,
-    cancelled: AtomicBool,
-    started: AtomicBool,
-}
-
-impl Ticket {
-    fn deadline(&self) -> Instant {
-        self.arrival.checked_add(self.time_limit).unwrap_or_else(|| self.arrival + FAR)
-    }
-
-    /// True if nobody waits for the answer any more.
-    fn abandoned(&self) -> bool {
-        self.cancelled() || self.elapsed() >= self.time_limit
-    }
-}
-
-impl Clock for Ticket {
-    fn elapsed(&self) -> Duration {
-        self.arrival.elapsed()
-    }
-
-    fn cancelled(&self) -> bool {
-        self.cancelled.load(Ordering::Relaxed)
     }
 }
 
@@ -139,8 +83,7 @@ impl Pool {
         time_limit: Duration,
         job: impl FnOnce(&Budget<'_>) -> T + Send + 'static,
     ) -> Result<Pending<T>, Refused> {
-        let (cancelled, started) = (AtomicBool::new(false), AtomicBool::new(false));
-        let ticket = Arc::new(Ticket { arrival, time_limit, cancelled, started });
+        let ticket = Arc::new(Ticket::new(arrival, time_limit));
         let (sender, reply) = oneshot::channel();
         let own = Arc::clone(&ticket);
         let run = Box::new(move || {
@@ -148,7 +91,7 @@ impl Pool {
             let _ = sender.send(own.run(job));
         });
         self.shared.enqueue(Waiting { ticket: Arc::clone(&ticket), run })?;
-        Ok(Pending { ticket, reply })
+        Ok(Pending::new(ticket, reply))
     }
 
     /// True if every thread lives and jobs are taken.
@@ -223,48 +166,6 @@ impl Shared {
     }
 }
 
-impl Ticket {
-    fn run<T>(&self, job: impl FnOnce(&Budget<'_>) -> T) -> Outcome<T> {
-        self.started.store(true, Ordering::Release);
-        if self.abandoned() {
-            return Outcome::TimedOut;
-        }
-        let budget = Budget::new(self, self.time_limit);
-        // The job owns all that it touches, so nothing half-done is left behind.
-        catch_unwind(AssertUnwindSafe(|| job(&budget))).map_or(Outcome::Panicked, Outcome::Done)
-    }
-}
-
-impl<T> Pending<T> {
-    /// Wait for the job, but not past its deadline: at once where it still waits for a thread, a little longer where it
-    /// runs and is about to deliver.
-    pub async fn outcome(mut self) -> Outcome<T> {
-        let deadline = self.ticket.deadline();
-        if let Some(outcome) = self.until(deadline).await {
-            return outcome;
-        }
-        if !self.ticket.started.load(Ordering::Acquire) {
-            return Outcome::TimedOut;
-        }
-        self.until(deadline + DELIVERY_GRACE).await.unwrap_or(Outcome::TimedOut)
-    }
-
-    async fn until(&mut self, instant: Instant) -> Option<Outcome<T>> {
-        tokio::select! {
-            biased;
-            // A reply that never comes means that its thread died.
-            outcome = &mut self.reply => Some(outcome.unwrap_or(Outcome::Panicked)),
-            () = sleep_until(instant.into()) => None,
-        }
-    }
-}
-
-impl<T> Drop for Pending<T> {
-    fn drop(&mut self) {
-        self.ticket.cancelled.store(true, Ordering::Relaxed);
-    }
-}
-
 /// No invariant of what these locks guard can be broken by a panic.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -272,7 +173,10 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering};
+
     use super::*;
+    use crate::jobs::Outcome;
 
     const LONG: Duration = Duration::from_secs(600);
 

@@ -11,7 +11,7 @@ mod layout;
 pub use arrange::{Arrangement, Effort, Task, arrange};
 
 use crate::geometry::Grasp;
-use crate::scene::ObjectIndex;
+use crate::scene::{ObjectIndex, Scene};
 use nalgebra::Point2;
 
 /// Which of the free places a relocated object goes to.
@@ -39,6 +39,11 @@ pub struct Relocation {
     pub release: Grasp,
     /// Least distance to another object at the new place, edge to edge, m.
     pub gap: f64,
+}
+
+/// How an object can be grasped as the table stands.
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex) -> Option<Grasp> {
+    layout::Layout::new(scene).grasp(object)
 }
 
 /// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.

@@ -3,6 +3,7 @@
 mod answer;
 pub mod check;
 mod claim;
+mod confirm;
 mod couple;
 mod planner;
 mod settings;
@@ -13,6 +14,7 @@ pub use crate::geometry::Grasp;
 pub use crate::placement::{Objective, Relocation};
 pub use answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
 pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
-pub use planner::{PlanError, plan};
+pub use confirm::PlanError;
+pub use planner::plan;
 pub use settings::Settings;
 pub use survey::{SurveyEntry, SurveyVerdict, survey};

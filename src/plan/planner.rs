@@ -3,23 +3,14 @@
 use core::time::Duration;
 
 use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
-use super::check::{Fault, FaultCode, Report, check};
-use super::claim::Claim;
+use super::confirm::{PlanError, confirm};
 use super::couple::{Question, arrange_least, arrange_one};
 use super::settings::Settings;
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{KnowledgeBase, close, complete, fixed_blockers, lock, relevant};
-use crate::placement::Arrangement;
-use crate::scene::{ObjectIndex, Scene};
+use crate::knowledge::{Closure, KnowledgeBase, Lock, close, complete, fixed_blockers, lock, relevant};
+use crate::placement::{Arrangement, grasp_in_place};
+use crate::scene::Scene;
 use crate::search::{LeastSet, Outcome, Restriction, least};
-
-/// The planner failed.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// The checker refused the planner's own answer: a bug. The answer is not served.
-    #[error("the answer did not pass its check")]
-    Refused(Report),
-}
 
 /// The share of the time after which knowledge and search hand over what they have.
 const SEARCH_SHARE: f64 = 0.6;
@@ -55,7 +46,7 @@ impl Planner<'_> {
         self.statistics.knowledge = self.since(started);
         let Ok(base) = base else { return Verdict::TimedOut(Unplanned::default()) };
         if base.options(target).any(<[_]>::is_empty) {
-            return self.graspable();
+            return graspable_now(self.scene);
         }
         let started = self.budget.elapsed();
         let outcome = least(&base, target, &Restriction::default(), &search_budget);
@@ -72,17 +63,14 @@ impl Planner<'_> {
         self.budget.elapsed().saturating_sub(started)
     }
 
-    fn graspable(&self) -> Verdict {
-        let task = Question { scene: self.scene, base: &KnowledgeBase::new(), objective: self.settings.objective };
-        match arrange_one(&task, &[], self.budget) {
-            Ok(Some(arrangement)) => Verdict::Graspable(arrangement.target_grasp),
-            _ => Verdict::TimedOut(Unplanned::default()),
-        }
-    }
-
     fn deadlock(&mut self) -> Verdict {
         let started = self.budget.elapsed();
-        let found = greatest_lock(self.scene, &self.budget.share(PLACEMENT_SHARE));
+        let budget = self.budget.share(PLACEMENT_SHARE);
+        // The relevant part of the base would show a lock, but not the greatest.
+        let found = complete(self.scene, &budget).and_then(|base| {
+            let closure = close(&base, |_| false, &budget)?;
+            Ok(greatest_lock(self.scene, &base, &closure, &budget))
+        });
         self.statistics.knowledge += self.since(started);
         found.map_or_else(|Interrupted| Verdict::TimedOut(Unplanned::default()), Verdict::Deadlock)
     }
@@ -108,53 +96,16 @@ impl Planner<'_> {
     }
 }
 
-/// Why the target, which must not follow, does not.
-fn greatest_lock(scene: &Scene, budget: &Budget<'_>) -> Result<Deadlock, Interrupted> {
-    let base = complete(scene, budget)?;
-    let closure = close(&base, |_| false, budget)?;
-    let lock = lock(&base, &closure, scene.target(), budget);
-    // A movable object without options is held by fixed ones alone.
-    let stuck = |object: &ObjectIndex| !closure.derives(*object) && !scene.object(*object).fixed();
-    let mut blocked: Vec<ObjectIndex> = scene.indices().filter(stuck).collect();
+/// The grasp of a target that knowledge says is graspable as the table stands.
+pub(super) fn graspable_now(scene: &Scene) -> Verdict {
+    let grasp = grasp_in_place(scene, scene.target());
+    grasp.map_or_else(|| Verdict::TimedOut(Unplanned::default()), Verdict::Graspable)
+}
+
+/// Why the target, which does not follow, does not: from the complete base and its closure.
+pub(super) fn greatest_lock(scene: &Scene, base: &KnowledgeBase, closure: &Closure, budget: &Budget<'_>) -> Deadlock {
+    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget);
     blocked.extend(fixed_blockers(scene, &blocked));
     blocked.sort_unstable();
-    Ok(Deadlock { blocked, core: lock.core })
-}
-
-/// The verdict as far as the checker confirms it. What it could not confirm in time is not claimed.
-fn confirm(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> Result<Verdict, PlanError> {
-    let answer = Answer { verdict, statistics: Statistics::default() };
-    let report = check(scene, &Claim::of(scene, &answer), budget);
-    let late = |fault: &Fault| is_late(fault.code);
-    if report.faults.iter().any(|fault| !late(fault)) {
-        return Err(PlanError::Refused(report));
-    }
-    let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
-    let mut verdict = answer.verdict;
-    if let Some(bound) = verdict.bound_mut()
-        && unconfirmed(FaultCode::BoundUnconfirmed)
-    {
-        bound.cost = report.proven_bound;
-    }
-    if unconfirmed(FaultCode::LockUnconfirmed) || unconfirmed(FaultCode::ReplayUnconfirmed) {
-        let bound = verdict.bound_mut().map(core::mem::take).unwrap_or_default();
-        verdict = Verdict::TimedOut(Unplanned { bound, needed: None });
-    }
-    if unconfirmed(FaultCode::NeededUnconfirmed)
-        && let Verdict::NoSpace(unplanned) | Verdict::TimedOut(unplanned) = &mut verdict
-    {
-        unplanned.needed = None;
-    }
-    Ok(verdict)
-}
-
-/// True if the code says that time ran out, not that anything is wrong.
-fn is_late(code: FaultCode) -> bool {
-    matches!(
-        code,
-        FaultCode::BoundUnconfirmed
-            | FaultCode::LockUnconfirmed
-            | FaultCode::NeededUnconfirmed
-            | FaultCode::ReplayUnconfirmed
-    )
+    Deadlock { blocked, core }
 }

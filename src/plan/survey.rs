@@ -1,8 +1,12 @@
 //! Every movable object as the target: logic only, no places.
 
-use super::planner::PlanError;
+use super::answer::{LowerBound, Unplanned, Verdict};
+use super::confirm::{PlanError, confirm};
+use super::planner::{graspable_now, greatest_lock};
 use crate::budget::Budget;
+use crate::knowledge::{Closure, KnowledgeBase, close, complete};
 use crate::scene::{ObjectIndex, Scene};
+use crate::search::{Outcome, Restriction, least};
 
 /// What the survey says of one object as the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,10 +34,85 @@ pub struct SurveyEntry {
     pub optimal: Option<bool>,
 }
 
-/// Every movable object as the target, in index order.
+/// Every movable object as the target, in index order. What the budget leaves undecided is `TimedOut`.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if an entry's proof fails its check.
-pub fn survey(_scene: &Scene, _budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
-    Ok(Vec::new())
+pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
+    let movable = scene.indices().filter(|&object| !scene.object(object).fixed());
+    let known = complete(scene, budget).and_then(|base| Ok((close(&base, |_| false, budget)?, base)));
+    let Ok((closure, base)) = known else { return Ok(movable.map(timed_out).collect()) };
+    let mut surveyor = Surveyor { scene, base: &base, closure: &closure, locked: None };
+    movable.map(|object| surveyor.entry(object, budget)).collect()
+}
+
+struct Surveyor<'a> {
+    scene: &'a Scene,
+    base: &'a KnowledgeBase,
+    closure: &'a Closure,
+    /// What the checker says of the greatest lock, which is one and the same for every object in it.
+    locked: Option<SurveyVerdict>,
+}
+
+impl Surveyor<'_> {
+    fn entry(&mut self, object: ObjectIndex, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
+        let Some(scene) = self.scene.with_target(object) else { return Ok(timed_out(object)) };
+        if budget.check().is_err() {
+            return Ok(timed_out(object));
+        }
+        if !self.closure.derives(object) {
+            return self.deadlock(&scene, budget);
+        }
+        let verdict = if self.base.options(object).any(<[_]>::is_empty) {
+            graspable_now(&scene)
+        } else {
+            self.derive(object, budget)
+        };
+        Ok(match confirm(&scene, verdict, budget)? {
+            Verdict::Graspable(_) => {
+                SurveyEntry { object, verdict: SurveyVerdict::Graspable, lower_bound: Some(0), optimal: Some(true) }
+            }
+            Verdict::NoSpace(Unplanned { bound, needed: Some(needed) }) => SurveyEntry {
+                object,
+                verdict: SurveyVerdict::Relocate,
+                lower_bound: Some(bound.cost),
+                optimal: Some(bound.cost == needed.len()),
+            },
+            _ => timed_out(object),
+        })
+    }
+
+    /// A derivation with its bound, stated as an answer without places.
+    fn derive(&self, object: ObjectIndex, budget: &Budget<'_>) -> Verdict {
+        match least(self.base, object, &Restriction::default(), budget) {
+            Outcome::Least(known) | Outcome::Interrupted(Some(known)) => Verdict::NoSpace(Unplanned {
+                bound: LowerBound { cost: known.bound, landmarks: known.landmarks },
+                needed: Some(known.derivation.order),
+            }),
+            Outcome::Underivable | Outcome::Interrupted(None) => Verdict::TimedOut(Unplanned::default()),
+        }
+    }
+
+    fn deadlock(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
+        let object = scene.target();
+        let verdict = match self.locked {
+            Some(verdict) => verdict,
+            None => {
+                let lock = greatest_lock(scene, self.base, self.closure, budget);
+                match confirm(scene, Verdict::Deadlock(lock), budget)? {
+                    Verdict::Deadlock(_) => SurveyVerdict::Deadlock,
+                    _ => SurveyVerdict::TimedOut,
+                }
+            }
+        };
+        self.locked = Some(verdict);
+        Ok(match verdict {
+            SurveyVerdict::Deadlock => SurveyEntry { object, verdict, lower_bound: None, optimal: None },
+            _ => timed_out(object),
+        })
+    }
+}
+
+fn timed_out(object: ObjectIndex) -> SurveyEntry {
+    SurveyEntry { object, verdict: SurveyVerdict::TimedOut, lower_bound: Some(0), optimal: Some(false) }
 }

@@ -1,9 +1,10 @@
 //! The part of a knowledge base that one question is about, in dense numbers.
 
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{Closure, KnowledgeBase, close};
+use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
+use super::chain::Chain;
 use super::least::Restriction;
 
 /// An object of the problem; the target is numbered after all others.
@@ -58,18 +59,48 @@ impl Problem {
         restriction: &Restriction,
         budget: &Budget<'_>,
     ) -> Result<Option<Self>, Interrupted> {
-        let usable = Usable::new(base, target, restriction, budget)?;
-        if !usable.closure.derives(target) {
+        let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
+        let all = Self::reached(base, target, |option| !option.iter().any(held), budget)?;
+        let mut chain = Chain::new(&all);
+        (0..all.target()).for_each(|node| chain.allow(node));
+        if !chain.reaches_target() {
             return Ok(None);
         }
-        let mut objects = usable.needed(budget)?;
-        // Whatever is near the target comes late.
+        let mut derivable = vec![false; base.len()];
+        chain.moved().for_each(|node| derivable[all.object(node).get()] = true);
+        Self::reached(base, target, |option| option.iter().all(|member| derivable[member.get()]), budget).map(Some)
+    }
+
+    /// What the target depends on through options that are `usable`: breadth first backwards from the target, numbered
+    /// in reverse, so that whatever is near the target comes late.
+    fn reached(
+        base: &KnowledgeBase,
+        target: ObjectIndex,
+        usable: impl Fn(&[ObjectIndex]) -> bool,
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
+        let mut seen = vec![false; base.len()];
+        let mut objects = vec![target];
+        let mut at = 0;
+        while let Some(&object) = objects.get(at) {
+            at += 1;
+            budget.check()?;
+            for &member in base.options(object).filter(|option| usable(option)).flatten() {
+                if !core::mem::replace(&mut seen[member.get()], true) {
+                    objects.push(member);
+                }
+            }
+        }
         objects.reverse();
+        Ok(Self::over(base, objects, usable))
+    }
+
+    fn over(base: &KnowledgeBase, objects: Vec<ObjectIndex>, usable: impl Fn(&[ObjectIndex]) -> bool) -> Self {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
-            for option in usable.options(object) {
+            for option in base.options(object).filter(|option| usable(option)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
                 heads.push(node_of[object.get()]);
@@ -78,7 +109,7 @@ impl Problem {
         }
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        Ok(Some(Self { objects, heads, bodies, condition_of }))
+        Self { objects, heads, bodies, condition_of }
     }
 
     /// The number of nodes besides the target.
@@ -87,7 +118,9 @@ impl Problem {
     }
 
     pub(super) fn target(&self) -> Node {
-        self.heads.last().copied().unwrap_or_default()
+        #[expect(clippy::cast_possible_truncation, reason = "a scene holds fewer than 2^32 objects")]
+        let last = self.movable() as Node;
+        last
     }
 
     pub(super) fn rules(&self) -> usize {
@@ -112,51 +145,5 @@ impl Problem {
 
     pub(super) fn node(&self, object: ObjectIndex) -> Option<Node> {
         self.objects.iter().zip(0..).find(|(other, _)| **other == object).map(|(_, node)| node)
-    }
-}
-
-/// The rules that can fire when the target and the held objects stay where they are.
-struct Usable<'a> {
-    base: &'a KnowledgeBase,
-    target: ObjectIndex,
-    held: &'a [ObjectIndex],
-    closure: Closure,
-}
-
-impl<'a> Usable<'a> {
-    fn new(
-        base: &'a KnowledgeBase,
-        target: ObjectIndex,
-        restriction: &'a Restriction,
-        budget: &Budget<'_>,
-    ) -> Result<Self, Interrupted> {
-        let held = restriction.held.as_slice();
-        let closure = close(base, |object| object == target || held.contains(&object), budget)?;
-        Ok(Self { base, target, held, closure })
-    }
-
-    fn options(&self, object: ObjectIndex) -> impl Iterator<Item = &'a [ObjectIndex]> {
-        self.base.options(object).filter(|option| {
-            option
-                .iter()
-                .all(|member| *member != self.target && self.closure.derives(*member) && !self.held.contains(member))
-        })
-    }
-
-    /// What the target depends on, breadth first backwards from the target, which comes first.
-    fn needed(&self, budget: &Budget<'_>) -> Result<Vec<ObjectIndex>, Interrupted> {
-        let mut seen = vec![false; self.base.len()];
-        let mut needed = vec![self.target];
-        let mut at = 0;
-        while let Some(&object) = needed.get(at) {
-            at += 1;
-            budget.check()?;
-            for &member in self.options(object).flatten() {
-                if !core::mem::replace(&mut seen[member.get()], true) {
-                    needed.push(member);
-                }
-            }
-        }
-        Ok(needed)
     }
 }

@@ -4,6 +4,9 @@ use super::problem::ErrorItem;
 use super::reader::{Faults, Path};
 use crate::scene::{Finding, Flaw, Place};
 
+/// The code of a list of objects that is too long.
+pub(super) const TOO_MANY_OBJECTS: &str = "too_many_objects";
+
 /// A finding as a warning; `scene` is where the scene stands in the body.
 pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> ErrorItem {
     let pointer = at(scene, finding.place, &mut |path| path.to_string());
@@ -36,7 +39,7 @@ fn code(flaw: &Flaw) -> &'static str {
         Flaw::EmptyRectangle { .. } => "empty_rectangle",
         Flaw::IdLength { .. } => "id_length",
         Flaw::DuplicateId { .. } => "duplicate_id",
-        Flaw::TooManyObjects { .. } => "too_many_objects",
+        Flaw::TooManyObjects { .. } => TOO_MANY_OBJECTS,
         Flaw::UnknownTarget(_) => "unknown_target",
         Flaw::FixedTarget(_) => "fixed_target",
         Flaw::OffTable { .. } => "off_table",

@@ -101,7 +101,7 @@ impl<'a> Node<'a> {
     /// An object with fields of these names and no others.
     pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
         let Value::Object(map) = self.value else { return self.wrong_type("an object", faults) };
-        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())) {
+        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())).take(MAX_FAULTS) {
             let path = self.path.field(name);
             if names.reserved.contains(&name.as_str()) {
                 faults.add("unknown_field", &path, format_args!("this name is reserved for a later version"));
@@ -161,6 +161,11 @@ impl<'a> Node<'a> {
             faults.add("unknown_value", self.path, format_args!("'{text}' is none of: {}", words.join(", ")));
         }
         choice
+    }
+
+    /// How many items the list has; 0 for anything else.
+    pub(super) fn length(&self) -> usize {
+        self.value.as_array().map_or(0, Vec::len)
     }
 
     /// A list. An item that can't be read keeps its place as the default value: its fault has been noted.

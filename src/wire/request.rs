@@ -6,7 +6,7 @@ use super::finding;
 use super::problem::{ErrorItem, Problem};
 use super::reader::{Faults, Names, Node, parse};
 use crate::plan::{Objective, Settings};
-use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
+use crate::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
 
 /// The longest scene id, characters: it stands in every log line of its request.
 pub const MAX_SCENE_ID_LENGTH: usize = 256;
@@ -77,7 +77,7 @@ pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Fault
     let scene_id = fields.optional("scene_id", None, faults, scene_id);
     let table = fields.required("table", faults, table);
     let gripper = fields.required("gripper", faults, gripper);
-    let objects = fields.required("objects", faults, |node, faults| node.list(faults, object));
+    let objects = fields.required("objects", faults, |node, faults| objects(node, limits, faults));
     let target = fields.required("target", faults, |node, faults| node.text(faults));
     let default = (Settings::default(), limits.default_time_limit.min(limits.max_time_limit));
     let settings = fields.optional("settings", default, faults, |node, faults| settings(node, default, limits, faults));
@@ -143,6 +143,16 @@ fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
         margin: fields.optional("margin", 0.0, faults, |node, faults| node.number(faults)),
         yaw_tolerance: fields.optional("yaw_tolerance", 0.0, faults, |node, faults| node.number(faults)),
     })
+}
+
+fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<ObjectDraft>> {
+    let (count, max) = (node.length(), limits.scene.max_objects);
+    if count > max {
+        // Not worth the work of reading them.
+        faults.add(finding::TOO_MANY_OBJECTS, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
+        return None;
+    }
+    node.list(faults, object)
 }
 
 fn object(node: Node<'_>, faults: &mut Faults) -> Option<ObjectDraft> {

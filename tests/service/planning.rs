@@ -126,8 +126,8 @@ async fn a_service_that_stops_finishes_what_runs() {
     let running = host.raw(&raw_plan(&scene(500)));
     wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
     let stopped = host.stop();
+    wait_until(|| std::net::TcpStream::connect(address).is_err()).await;
     let text = read_to_end(running).await;
     assert!(text.starts_with("HTTP/1.1 200 ") && text.contains("timed_out"), "{text}");
     tokio::time::timeout(PATIENCE, stopped).await.unwrap().unwrap().unwrap();
-    assert!(std::net::TcpStream::connect(address).is_err());
 }

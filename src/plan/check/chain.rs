@@ -97,3 +97,55 @@ impl<'a> Chain<'a> {
         (question == self.question).then_some(state)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::budget::Budget;
+    use crate::plan::check::names::Names;
+    use crate::plan::check::near::Places;
+    use crate::plan::check::rings::Leaning;
+    use crate::plan::check::scenes::TestScene;
+
+    /// Forward, over everything, again and again until nothing more can be lifted.
+    fn naive(scene: &Scene, rings: &mut Rings<'_>, held: &[ObjectIndex], meter: &mut Meter<'_>) -> bool {
+        let mut lifted = vec![false; scene.objects().len()];
+        loop {
+            let before = lifted.clone();
+            for object in scene.indices().filter(|object| !held.contains(object) && *object != scene.target()) {
+                let ring = rings.ring(object, meter).unwrap();
+                lifted[object.get()] |= rings.is_free(&ring, |other| !lifted[other.get()]);
+            }
+            if lifted == before {
+                let ring = rings.ring(scene.target(), meter).unwrap();
+                return rings.is_free(&ring, |other| !lifted[other.get()]);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn asking_backwards_finds_what_chaining_everything_finds(
+            fingers in 2_u32..=4,
+            others in proptest::collection::vec((0.3..0.7_f64, 0.3..0.7_f64, 0.02..0.06_f64), 60),
+            holds in proptest::collection::vec(proptest::collection::vec(1_usize..20, 0..5), 8),
+        ) {
+            let mut discs = vec![(0.5, 0.5, 0.05)];
+            discs.extend(others);
+            let scene = TestScene::new(fingers).scatter(&discs);
+            let names = Names::new(&scene);
+            let places = Places::new(&scene, &[], &names);
+            let (budget, count) = (Budget::unlimited(), scene.objects().len());
+            let mut meter = Meter::new(&budget);
+            let mut rings = Rings::new(&scene, &places, Leaning::Blocked);
+            let mut chain = Chain::new(&scene, Rings::new(&scene, &places, Leaning::Blocked));
+            for hold in holds {
+                let held: Vec<_> = hold.into_iter().filter(|at| *at < count).map(ObjectIndex::new).collect();
+                let frees = chain.frees_target(&held, &mut meter).unwrap();
+                prop_assert_eq!(frees, naive(&scene, &mut rings, &held, &mut meter));
+            }
+        }
+    }
+}

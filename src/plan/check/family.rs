@@ -67,6 +67,39 @@ impl Family {
         count
     }
 
+    /// A bound by shares: every set gets a share such that the sets of no element get more than 1 together; then as many
+    /// elements are needed as the shares add up to (weak duality). A set's share is 1 over the count of sets that its most
+    /// frequent member hits, and then whatever its members have left.
+    pub(super) fn shares(&self) -> usize {
+        let mut count = vec![0.0_f64; self.width];
+        for member in self.sets.iter().flat_map(|set| &set.members) {
+            count[*member] += 1.0;
+        }
+        let most = |set: &Set| set.members.iter().fold(1.0, |most, member| count[*member].max(most));
+        let mut left = vec![1.0_f64; self.width];
+        let mut total = 0.0;
+        let mut order: Vec<(f64, &Set)> = self.sets.iter().map(|set| (1.0 / most(set), set)).collect();
+        for (share, set) in &order {
+            total += share;
+            set.members.iter().for_each(|member| left[*member] -= share);
+        }
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, set) in order {
+            let share = set.members.iter().fold(1.0, |least, member| left[*member].min(least)).max(0.0);
+            total += share;
+            set.members.iter().for_each(|member| left[*member] -= share);
+        }
+        // Rounding adds up to far less than this, and a whole number must not become the next one.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the count of sets")]
+        let whole = (total - 1e-6).ceil().max(0.0) as usize;
+        whole
+    }
+
+    /// The better of the two bounds.
+    pub(super) fn bound(&self) -> usize {
+        self.packing().max(self.shares())
+    }
+
     /// For each element the positions of the sets that hold it.
     pub(super) fn columns(&self) -> Vec<Vec<usize>> {
         let mut columns = vec![Vec::new(); self.width];

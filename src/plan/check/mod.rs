@@ -1,9 +1,9 @@
 //! The independent checker: replays a stated answer on the scene with its own arithmetic.
 //!
 //! It shares nothing with the rooms that make answers: only the scene, the budget and the stated answer come in, so that
-//! a fault in geometry, knowledge, search or placement can't hide behind itself. Reading order: [`replay`] carries the
-//! steps out ([`place`], [`finger`]); [`yaws`] and [`rings`] say which objects hold which; on them stand [`lock`],
-//! [`chain`] and [`needed`]; [`hitting`] and [`bound`] confirm the bound; [`claims`] compares the parts of the answer.
+//! a fault in geometry, knowledge, search or placement can't hide behind itself. Reading order: `replay` carries the
+//! steps out (`place`, `finger`); `yaws` and `rings` say which objects hold which; on them stand `lock`,
+//! `chain` and `needed`; `hitting` and `bound` confirm the bound; `claims` compares the parts of the answer.
 
 mod bound;
 mod chain;

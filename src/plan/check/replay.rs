@@ -150,16 +150,19 @@ impl Replay<'_> {
         let Some(band) = self.band(step, object, grasp) else { return Ok(()) };
         let gripper = self.scene.gripper();
         let finger = Finger::new(gripper, disc.radius);
-        let mut near = Vec::new();
-        self.places.within(disc.centre, finger.corner_distance() + gripper.margin(), |place| near.push(place));
-        let mut worst: Option<(f64, ObjectIndex)> = None;
-        for place in near {
-            self.meter.spend(1)?;
+        let (mut near, mut visited) = (Vec::new(), 0);
+        self.places.within(disc.centre, finger.corner_distance() + gripper.margin(), |place| {
+            visited += 1;
             let owner = self.places.owner(place);
-            if owner == object || self.standing[owner.get()] != place {
-                continue;
+            if owner != object && self.standing[owner.get()] == place {
+                near.push(owner);
             }
-            let obstacle = self.places.disc(place);
+        });
+        self.meter.spend(visited / 16)?;
+        let mut worst: Option<(f64, ObjectIndex)> = None;
+        for owner in near {
+            self.meter.spend(1)?;
+            let obstacle = self.disc(owner);
             let away = finger.closest(gripper, obstacle.centre - disc.centre, grasp.yaw, band);
             let depth = obstacle.radius + gripper.margin() - away;
             if depth > TOLERANCE && worst.is_none_or(|(deepest, _)| depth > deepest) {

@@ -137,3 +137,70 @@ impl<'a> Rings<'a> {
         widest > gripper.min_free_width() + self.leaning.sign() * WIDTH_LEANING
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::budget::Budget;
+    use crate::plan::check::names::Names;
+    use crate::plan::check::scenes::TestScene;
+
+    /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
+    fn some_band_is_free(scene: &Scene, band: f64) -> bool {
+        let (gripper, target) = (scene.gripper(), scene.object(scene.target()).disc());
+        let finger = Finger::new(gripper, target.radius);
+        (0..500).any(|sample| {
+            let yaw = gripper.period() * f64::from(sample) / 500.0;
+            scene.indices().filter(|object| *object != scene.target()).all(|object| {
+                let disc = scene.object(object).disc();
+                finger.closest(gripper, disc.centre - target.centre, yaw, band) >= disc.radius
+            })
+        })
+    }
+
+    #[test]
+    fn an_obstacle_that_only_just_touches_blocks_or_not_as_the_question_leans() {
+        let finger = Finger { inner: 0.05, outer: 0.1, half: 0.01 };
+        for (off, leaning, blocks) in [
+            (1e-15, Leaning::Blocked, true),
+            (-1e-15, Leaning::Free, false),
+            (1e-10, Leaning::Blocked, false),
+            (-1e-10, Leaning::Free, true),
+        ] {
+            let x = 0.5 + (finger.corner_distance() + 0.08) * (1.0 + off);
+            let scene = TestScene::new(3).disc("t", 0.5, 0.5, 0.05).disc("o", x, 0.5, 0.08).build("t");
+            let names = Names::new(&scene);
+            let places = Places::new(&scene, &[], &names);
+            let mut rings = Rings::new(&scene, &places, leaning);
+            let ring = rings.ring(scene.target(), &mut Meter::new(&Budget::unlimited())).unwrap();
+            assert_eq!(ring.len() > 0, blocks, "{off:e} {leaning:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_free_interval_is_found_where_a_band_of_its_width_is_free(
+            fingers in 2_u32..=6, tolerance in 0.01..0.3_f64,
+            others in proptest::collection::vec((0.3..0.7_f64, 0.3..0.7_f64, 0.005..0.09_f64), 1..16),
+        ) {
+            let mut discs = vec![(0.5, 0.5, 0.05)];
+            discs.extend(others);
+            let scene = TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs);
+            let names = Names::new(&scene);
+            let places = Places::new(&scene, &[], &names);
+            for leaning in [Leaning::Blocked, Leaning::Free] {
+                let mut rings = Rings::new(&scene, &places, leaning);
+                let ring = rings.ring(scene.target(), &mut Meter::new(&Budget::unlimited())).unwrap();
+                // The middle of a free interval is at most half a sample off.
+                let half_sample = scene.gripper().period() / 1000.0 + 1e-9;
+                if rings.is_free(&ring, |_| true) {
+                    prop_assert!(some_band_is_free(&scene, tolerance - half_sample));
+                } else {
+                    prop_assert!(!some_band_is_free(&scene, tolerance + 1e-9));
+                }
+            }
+        }
+    }
+}

@@ -28,6 +28,23 @@ impl TestScene {
         self
     }
 
+    pub(super) fn yaw_tolerance(mut self, tolerance: f64) -> Self {
+        self.0.gripper.yaw_tolerance = Some(tolerance);
+        self
+    }
+
+    /// Those of the discs (x, y, radius) that don't overlap an earlier one, as d0, d1 and so on; d0 is the target.
+    pub(super) fn scatter(mut self, discs: &[(f64, f64, f64)]) -> Scene {
+        let mut kept: Vec<(f64, f64, f64)> = Vec::new();
+        for &(x, y, radius) in discs {
+            if kept.iter().all(|&(a, b, r)| (a - x) * (a - x) + (b - y) * (b - y) >= (r + radius) * (r + radius)) {
+                self = self.disc(&format!("d{}", kept.len()), x, y, radius);
+                kept.push((x, y, radius));
+            }
+        }
+        self.build("d0")
+    }
+
     pub(super) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
         let object = ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), radius: Some(radius), fixed: false };
         self.0.objects.push(object);

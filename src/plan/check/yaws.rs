@@ -77,8 +77,6 @@ pub(super) fn blocked_yaws(finger: &Finger, period: f64, obstacle: Vector2<f64>,
     for [lo, hi] in blocked_offsets(finger, distance, rho) {
         if lo <= 0.0 {
             fold(&mut yaws, bearing - hi, 2.0 * hi, period);
-        } else if hi >= PI {
-            fold(&mut yaws, bearing + lo, 2.0 * (PI - lo), period);
         } else {
             fold(&mut yaws, bearing - hi, hi - lo, period);
             fold(&mut yaws, bearing + lo, hi - lo, period);

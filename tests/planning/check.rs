@@ -1,0 +1,8 @@
+//! The independent checker: it passes what is right, and sees each kind of fault.
+
+mod faults;
+mod limits;
+mod physics;
+mod proofs;
+mod scenes;
+mod served;
