@@ -81,6 +81,7 @@ impl Generate {
             gripper,
             fixed_share: self.fixed_share,
             arrangement: if self.pressed { Arrangement::Pressed } else { Arrangement::Loose },
+            ..Recipe::default()
         }
     }
 }

@@ -57,7 +57,7 @@ fn greeting(listen: SocketAddr) -> String {
     let url = format!("http://{host}:{}", listen.port());
     let scene = SCENE.trim();
     format!(
-        "singulate listens on {url} (pages: {url}/docs). Try:\n\n\
+        "singulate listens on {url} (interface: {url}/docs). Try:\n\n\
          curl -s {url}/v1/plans -H 'content-type: application/json' -d '{scene}'\n\n"
     )
 }

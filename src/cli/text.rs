@@ -12,6 +12,9 @@ use crate::render::headline;
 use crate::scene::{ObjectIndex, Scene};
 use crate::wire::{FaultBody, PlanRequest, VerificationBody};
 
+/// More ids than this in one sentence nobody reads.
+const MANY: usize = 40;
+
 /// The text with control characters made visible: an id must not move the cursor or forge a line.
 pub(super) fn plain(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
@@ -111,7 +114,11 @@ fn why_never(scene: &Scene, deadlock: &Deadlock) -> String {
     let others = if others.is_empty() {
         String::new()
     } else {
-        format!("\nOut of reach for good as well: {}\n", ids(scene, &others))
+        let more = match others.len().saturating_sub(MANY) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        format!("\nOut of reach for good as well: {}{more}\n", ids(scene, &others[..others.len().min(MANY)]))
     };
     format!(
         "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\

@@ -13,8 +13,6 @@ use crate::scene::{Disc, distance};
 const TRIES: usize = 2_000;
 /// How often a full table is begun anew.
 const ATTEMPTS: usize = 30;
-/// The widest gap between pressed discs, m.
-const PRESSED_GAP: f64 = 2e-3;
 /// Rounding to whole micrometres moves a centre by up to 0.71 µm; so much further off, rounded discs never overlap.
 const ROUNDING: f64 = 1e-6;
 
@@ -48,7 +46,7 @@ struct Floor {
 impl Floor {
     fn new(recipe: &Recipe) -> Self {
         let (min, max) = corners(recipe);
-        let cell = 2.0 * recipe.radius.1 + PRESSED_GAP + 2.0 * ROUNDING;
+        let cell = 2.0 * recipe.radius.1 + recipe.pressed_gap + 2.0 * ROUNDING;
         Self { min, max, cell, cells: HashMap::new(), discs: Vec::new() }
     }
 
@@ -162,7 +160,7 @@ fn pressed(recipe: &Recipe, random: &mut ChaCha8Rng) -> Floor {
         for other in floor.near(disc.centre, 2).filter(|other| *other != disc) {
             for left in [true, false] {
                 let radius = whole_micrometres(between(random, recipe.radius));
-                let gaps = (between(random, (0.0, PRESSED_GAP)), between(random, (0.0, PRESSED_GAP)));
+                let gaps = (between(random, (0.0, recipe.pressed_gap)), between(random, (0.0, recipe.pressed_gap)));
                 let Some(centre) = touching(disc, other, radius, gaps, left) else { continue };
                 let distance = distance(centre, first.centre);
                 places.push(Candidate { disc: Disc { centre: rounded(centre), radius }, distance, number });
@@ -184,7 +182,7 @@ fn beside(first: Disc, recipe: &Recipe, random: &mut ChaCha8Rng) -> Disc {
         }
     };
     let radius = whole_micrometres(between(random, recipe.radius));
-    let apart = first.radius + radius + between(random, (0.0, PRESSED_GAP)) + ROUNDING;
+    let apart = first.radius + radius + between(random, (0.0, recipe.pressed_gap)) + ROUNDING;
     Disc { centre: rounded(first.centre + direction * apart), radius }
 }
 

@@ -16,7 +16,7 @@ pub enum Arrangement {
     /// Anywhere, evenly.
     #[default]
     Loose,
-    /// In one dense cluster, each object 0 to 2 mm from two others.
+    /// In one dense cluster, each object up to the recipe's gap from two others.
     Pressed,
 }
 
@@ -37,6 +37,8 @@ pub struct Recipe {
     pub fixed_share: f64,
     /// How the objects stand.
     pub arrangement: Arrangement,
+    /// The widest gap between an object of a pressed cluster and the two that it was put to, m.
+    pub pressed_gap: f64,
 }
 
 /// The paper's gripper and its Case I table with 16 objects.
@@ -57,6 +59,7 @@ impl Default for Recipe {
             gripper,
             fixed_share: 0.0,
             arrangement: Arrangement::Loose,
+            pressed_gap: 2e-3,
         }
     }
 }
@@ -111,6 +114,7 @@ fn check(recipe: &Recipe) -> Result<(), GenerateError> {
         (least > greatest, "the least radius is above the greatest"),
         (!(0.0..=1.0).contains(&recipe.fixed_share), "the fixed share is between 0 and 1"),
         (!(length(recipe.table.0) && length(recipe.table.1)), "a side of the table is between 1e-6 m and 1e3 m"),
+        (!(0.0..=1e3).contains(&recipe.pressed_gap), "the gap is between 0 and 1e3 m"),
         (!(recipe.origin.0.is_finite() && recipe.origin.1.is_finite()), "the origin is not a place"),
     ];
     match faults.into_iter().find(|(wrong, _)| *wrong) {
@@ -264,6 +268,7 @@ mod tests {
             Recipe { radius: (f64::NAN, 0.1), ..sound },
             Recipe { fixed_share: 1.5, ..sound },
             Recipe { table: (-1.0, 1.0), ..sound },
+            Recipe { pressed_gap: -0.001, ..sound },
             Recipe { origin: (f64::INFINITY, 0.0), ..sound },
         ];
         for recipe in refused {

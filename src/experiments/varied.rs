@@ -41,17 +41,21 @@ fn whole(random: &mut ChaCha8Rng, least: u32, greatest: u32) -> u32 {
 
 fn recipe(random: &mut ChaCha8Rng) -> Recipe {
     let objects = whole(random, 2, 80);
-    let least = between(random, (0.01, 0.08));
+    let least = between(random, (0.015, 0.08));
     let greatest = if chance(random, 0.5) { least } else { least * between(random, (1.1, 4.0)) };
     let arrangement = if chance(random, 0.5) { Arrangement::Pressed } else { Arrangement::Loose };
+    let gripper = gripper(random);
+    let finger_width = gripper.finger_width.unwrap_or_default();
     Recipe {
         objects: objects as usize,
         table: table(random, objects, (least + greatest) / 2.0, greatest),
         origin: origin(random),
         radius: (least, greatest),
-        gripper: gripper(random),
+        gripper,
         fixed_share: if chance(random, 0.5) { 0.0 } else { between(random, (0.02, 0.3)) },
         arrangement,
+        // In contact nearly everything locks; a finger's width apart there is something to plan.
+        pressed_gap: if chance(random, 0.25) { 2e-3 } else { between(random, (0.5, 3.0)) * finger_width },
     }
 }
 
@@ -77,8 +81,8 @@ fn origin(random: &mut ChaCha8Rng) -> (f64, f64) {
 fn gripper(random: &mut ChaCha8Rng) -> GripperDraft {
     GripperDraft {
         fingers: Some(f64::from(whole(random, 2, 6))),
-        finger_width: Some(f64::from(whole(random, 4, 25)) * 1e-3),
-        clearance: Some(f64::from(whole(random, 20, 80)) * 1e-3),
+        finger_width: Some(f64::from(whole(random, 4, 20)) * 1e-3),
+        clearance: Some(f64::from(whole(random, 20, 60)) * 1e-3),
         margin: Some(if chance(random, 0.75) { 0.0 } else { f64::from(whole(random, 1, 8)) * 1e-3 }),
         yaw_tolerance: Some(if chance(random, 0.75) { 0.0 } else { f64::from(whole(random, 1, 50)) * 1e-3 }),
     }

@@ -1,0 +1,129 @@
+//! What each command prints, and how it exits.
+
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use crate::scenes::{ALONE, CROWD, FAULTY};
+use crate::{answered, failed, file, run, run_with_input, singulate};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn plan_answers_in_the_format_asked_for() {
+    let path = file("formats.json", CROWD);
+    let path = path.to_str().unwrap();
+    let answer = json(&answered(run(&["plan", path])));
+    assert_eq!(
+        (&answer["verdict"], &answer["cost"], &answer["optimal"]),
+        (&"relocate".into(), &2.into(), &true.into())
+    );
+    let explicit = json(&answered(run(&["plan", path, "--format", "json"])));
+    assert_eq!(explicit["relocations"], answer["relocations"]);
+    let text = answered(run(&["plan", "--format", "text", path]));
+    assert!(
+        text.starts_with("relocate 2 objects (proven least)\ntarget: cup\n") && text.contains("So 2 is the least.")
+    );
+    let drawing = answered(run(&["plan", path, "--format", "svg"]));
+    assert!(drawing.starts_with("<svg") && drawing.matches("class=\"relocation\"").count() == 2);
+    let errors = failed(&run(&["plan", path, "--format", "pdf"]), 2);
+    assert!(errors.contains("pdf") && errors.contains("json, text, svg"));
+}
+
+#[test]
+fn a_scene_can_come_from_stdin() {
+    let answer = json(&answered(run_with_input(&["plan", "-"], ALONE)));
+    assert_eq!((&answer["verdict"], &answer["scene_id"]), (&"graspable".into(), &"alone".into()));
+}
+
+#[test]
+fn a_bad_scene_gives_every_fault_with_its_place_and_status_2() {
+    for command in ["plan", "survey"] {
+        let errors = failed(&run_with_input(&[command, "-"], FAULTY), 2);
+        let lines: Vec<&str> = errors.lines().collect();
+        assert_eq!(lines[0], "-: 4 faults");
+        let starts = [
+            "  unknown_field  /colour  ",
+            "  wrong_type  /gripper/clearance  ",
+            "  not_whole  /gripper/fingers  ",
+            "  out_of_range  /objects/0/radius  ",
+        ];
+        for start in starts {
+            assert!(lines[1..].iter().any(|line| line.starts_with(start)), "no '{start}' in {errors}");
+        }
+    }
+    assert!(failed(&run_with_input(&["plan", "-"], "{\"table\": }"), 2).contains("line 1 column 11"));
+    assert!(failed(&run(&["plan", "/nowhere.json"]), 2).starts_with("/nowhere.json: "));
+}
+
+#[test]
+fn bad_arguments_exit_with_status_2() {
+    for arguments in [&["plan"][..], &["paln"], &["plan", "a", "b"], &["generate", "--radius", "x"], &["serve", "here"]]
+    {
+        failed(&run(arguments), 2);
+    }
+}
+
+#[test]
+fn verify_answers_with_status_0_whether_the_plan_holds_or_not() {
+    let scene = file("verify-scene.json", CROWD);
+    let scene = scene.to_str().unwrap();
+    let plan = answered(run(&["plan", scene]));
+    let verified = json(&answered(run_with_input(&["verify", scene, "-"], &plan)));
+    assert_eq!(verified, json(r#"{"valid": true, "faults": []}"#));
+    let mut lifted = json(&plan);
+    lifted["relocations"][0]["to"]["x"] = lifted["relocations"][1]["to"]["x"].clone();
+    lifted["relocations"][0]["to"]["y"] = lifted["relocations"][1]["to"]["y"].clone();
+    let verified = json(&answered(run_with_input(&["verify", scene, "-"], &lifted.to_string())));
+    assert_eq!(verified["valid"], false);
+    let text = answered(run_with_input(&["verify", scene, "-", "--format", "text"], &lifted.to_string()));
+    assert!(text.starts_with("not valid: "), "{text}");
+}
+
+#[test]
+fn verify_refuses_a_plan_for_another_target_and_a_second_stdin() {
+    let scene = file("verify-target.json", ALONE);
+    let plan = r#"{"target": "vase", "relocations": [], "target_grasp": {"yaw": 0}}"#;
+    let errors = failed(&run_with_input(&["verify", scene.to_str().unwrap(), "-"], plan), 2);
+    assert!(errors.contains("target_mismatch  /target"), "{errors}");
+    failed(&run(&["verify", "-", "-"]), 2);
+}
+
+#[test]
+fn survey_tells_of_every_movable_object() {
+    let survey = json(&answered(run_with_input(&["survey", "-"], CROWD)));
+    assert!(survey["objects"].is_array());
+    assert!(answered(run_with_input(&["survey", "-", "--format", "text"], CROWD)).starts_with("object"));
+}
+
+#[test]
+fn a_seed_gives_the_same_bytes_for_ever() {
+    let arguments = ["generate", "--objects", "12", "--table", "1.2", "0.7", "--radius", "0.03..0.075"];
+    let arguments = [&arguments[..], &["--seed", "7", "--fixed-share", "0.2"]].concat();
+    let scene = answered(run(&arguments));
+    assert_eq!(scene, include_str!("generated-seed-7.json"));
+    assert_eq!(json(&answered(run_with_input(&["plan", "-"], &scene)))["target"], json(&scene)["target"]);
+}
+
+#[test]
+fn generate_says_how_many_objects_fitted() {
+    let errors = failed(&run(&["generate", "--objects", "100"]), 2);
+    assert!(errors.contains("of 100 objects fitted on the table"), "{errors}");
+    assert!(failed(&run(&["generate", "--fingers", "1"]), 2).contains("1 is not between 2 and 12"));
+    answered(run(&["generate", "--pressed", "--radius", "0.03", "--origin", "-3", "7"]));
+}
+
+#[test]
+fn openapi_prints_the_committed_document() {
+    assert_eq!(answered(run(&["openapi"])), include_str!("../../openapi/openapi.json"));
+}
+
+#[test]
+fn a_reader_that_stops_early_is_no_error() {
+    let mut child = singulate(&["openapi"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}

@@ -1,0 +1,60 @@
+//! The service as a process.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, ChildStdout, Stdio};
+
+use crate::{answered, failed, run, singulate};
+
+/// A service on a free port; it ends with the test.
+struct Service {
+    child: Child,
+    out: BufReader<ChildStdout>,
+    url: String,
+}
+
+impl Service {
+    /// Without a command it serves: only variables say where.
+    fn start() -> Self {
+        let mut command = singulate(&[]);
+        command.env("SINGULATE_LISTEN", "127.0.0.1:0").env("SINGULATE_LOG", "warn");
+        let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut line = String::new();
+        out.read_line(&mut line).unwrap();
+        let url = line.split_whitespace().find(|word| word.starts_with("http://")).unwrap().to_owned();
+        Self { child, out, url }
+    }
+}
+
+impl Drop for Service {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn the_service_says_where_it_is_and_what_to_paste_and_is_healthy() {
+    let mut service = Service::start();
+    let mut curl = String::new();
+    while !curl.starts_with("curl ") {
+        curl.clear();
+        assert!(service.out.read_line(&mut curl).unwrap() > 0, "no line to paste");
+    }
+    assert!(curl.contains(&format!("{}/v1/plans -H 'content-type: application/json' -d '{{", service.url)), "{curl}");
+    let url = format!("{}/readyz", service.url);
+    assert_eq!(answered(run(&["healthcheck", "--url", &url])), "");
+    let listen = service.url.trim_start_matches("http://");
+    assert_eq!(answered(singulate(&["healthcheck"]).env("SINGULATE_LISTEN", listen).output().unwrap()), "");
+    let missing = format!("{}/missing", service.url);
+    assert!(failed(&run(&["healthcheck", "--url", &missing]), 1).contains("404"));
+    let taken = run(&["serve", "--listen", listen, "--log", "off"]);
+    assert!(failed(&taken, 1).starts_with(listen));
+}
+
+#[test]
+fn a_service_that_is_not_there_is_not_healthy() {
+    // Port 9 discards; nobody listens there on this machine.
+    failed(&run(&["healthcheck", "--url", "http://127.0.0.1:9/readyz"]), 1);
+    failed(&run(&["healthcheck", "--url", "no url"]), 2);
+}
