@@ -16,9 +16,9 @@ const ROOMS: [&str; 15] = [
     "render",
     "wire",
     "jobs",
-    "telemetry",
     "api",
     "config",
+    "telemetry",
     "cli",
 ];
 const PURE: [&str; 7] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "plan"];

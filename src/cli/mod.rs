@@ -15,8 +15,9 @@ mod verify;
 
 use clap::{Parser, Subcommand};
 
+use crate::api;
 use crate::config::{self, Config, ConfigError, Stated};
-use crate::{api, telemetry};
+use crate::telemetry;
 
 const EXIT_CODES: &str = "\
 Exit status: 0 where an answer was given, whatever the verdict; 2 for bad arguments, settings or scenes, \

@@ -8,9 +8,10 @@ use super::flags::Flags;
 use super::stopwatch::Stopwatch;
 use super::{Failure, configure, input, output, text};
 use crate::budget::Budget;
+use crate::plan;
 use crate::plan::PlanError;
+use crate::render;
 use crate::wire::{AnswerBody, Problem, VerificationBody};
-use crate::{plan, render};
 
 /// The arguments of `plan`.
 #[derive(Debug, Args)]
