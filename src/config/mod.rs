@@ -10,15 +10,7 @@ use crate::api::ServerSettings;
 pub use load::{ConfigError, Source, Stated, load};
 pub use setting::{SETTINGS, Scope, Setting};
 
-/// How log lines are written.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum LogFormat {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON object a line.
-    Json,
-}
+use crate::telemetry::LogFormat;
 
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,9 @@
 
 use core::time::Duration;
 
-use super::{Config, LogFormat};
+use super::Config;
 use crate::telemetry;
+use crate::telemetry::LogFormat;
 
 /// Who needs a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
