@@ -35,7 +35,7 @@ fn main() -> ExitCode {
         let total: f64 = scenes.map(|scene| time(&scene).as_secs_f64() * 1e6).sum();
         let mean = total / 3.0;
         println!("{objects:>8} {mean:>12.1} {:>12.3}", mean / cases::count(objects));
-        points.push((cases::count(objects).ln(), mean.ln()));
+        points.push((libm::log(cases::count(objects)), libm::log(mean)));
     }
     let slope = slope(&points);
     println!("slope of log time over log N: {slope:.3} (at most {MAX_SLOPE})");
