@@ -1,4 +1,4 @@
-//! The part of a knowledge base that one question is about, in dense numbers.
+//! The rules that one question is about, in dense numbers.
 
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
