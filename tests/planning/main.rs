@@ -4,3 +4,4 @@ mod bases;
 mod check;
 mod generated;
 mod scenes;
+mod space;
