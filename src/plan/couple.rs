@@ -10,6 +10,8 @@ use crate::search::{Alternatives, Derivation};
 const MAX_EFFORT: u32 = 1_000_000;
 /// The effort for one set, so that others get their turn.
 const MAX_EFFORT_PER_SET: u32 = 100_000;
+/// What each relocation adds to that: a long plan has many places to find, each among those found before.
+const EFFORT_PER_STEP: u32 = 5_000;
 /// How many more relocations than the least set has are tried.
 const MAX_EXTRA: usize = 3;
 /// How many sets are tried.
@@ -69,9 +71,10 @@ fn attempt(
     effort: &mut Effort,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
+    let steps = u32::try_from(cost).unwrap_or(u32::MAX);
     for objective in [question.objective, question.objective.other()] {
         let task = Task { scene: question.scene, set, extra: cost - set.len(), objective };
-        let mut part = effort.split(MAX_EFFORT_PER_SET);
+        let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(EFFORT_PER_STEP.saturating_mul(steps)));
         let found = arrange(&task, &mut part, budget)?;
         effort.join(part);
         if found.is_some() {

@@ -117,7 +117,7 @@ pub(super) fn greatest_lock(
     closure: &Closure,
     budget: &Budget<'_>,
 ) -> Result<Deadlock, Interrupted> {
-    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget);
+    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget)?;
     blocked.extend(fixed_blockers(scene, &blocked, budget)?);
     blocked.sort_unstable();
     Ok(Deadlock { blocked, core })

@@ -62,7 +62,12 @@ impl Problem {
         let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
         let all = Self::reached(base, target, |option| !option.iter().any(held), budget)?;
         let mut chain = Chain::new(&all);
-        (0..all.target()).for_each(|node| chain.allow(node));
+        for node in 0..all.target() {
+            if node % 64 == 0 {
+                budget.check()?;
+            }
+            chain.allow(node);
+        }
         if !chain.reaches_target() {
             return Ok(None);
         }
@@ -92,14 +97,20 @@ impl Problem {
             }
         }
         objects.reverse();
-        Ok(Self::over(base, objects, usable))
+        Self::over(base, objects, usable, budget)
     }
 
-    fn over(base: &KnowledgeBase, objects: Vec<ObjectIndex>, usable: impl Fn(&[ObjectIndex]) -> bool) -> Self {
+    fn over(
+        base: &KnowledgeBase,
+        objects: Vec<ObjectIndex>,
+        usable: impl Fn(&[ObjectIndex]) -> bool,
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
+            budget.check()?;
             for option in base.options(object).filter(|option| usable(option)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
@@ -108,8 +119,10 @@ impl Problem {
             }
         }
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
+        budget.check()?;
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        Self { objects, heads, bodies, condition_of }
+        budget.check()?;
+        Ok(Self { objects, heads, bodies, condition_of })
     }
 
     /// The number of nodes besides the target.
