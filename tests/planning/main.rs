@@ -3,5 +3,6 @@
 mod bases;
 mod check;
 mod generated;
+mod scene_bases;
 mod scenes;
 mod space;
