@@ -22,7 +22,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
         let Some(node) = problem.node(object) else { return Outcome::Underivable };
         required.push(node);
     }
-    let mut search = Search::new(&problem, required, budget);
+    let Ok(mut search) = Search::new(&problem, required, budget) else { return Outcome::Interrupted(None) };
     match search.run(budget) {
         Ok(()) => Outcome::Least(search.known()),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known())),
@@ -40,12 +40,12 @@ struct Search<'p> {
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Self {
+    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Result<Self, Interrupted> {
         let landmarks = required.iter().map(|&node| vec![node]).collect();
         let mut search =
             Self { problem, chain: Chain::new(problem), landmarks, bound: required.len(), required, best: Vec::new() };
-        search.best = search.minimal(&incumbent::greedy(problem), budget);
-        search
+        search.best = search.minimal(&incumbent::greedy(problem, budget)?, budget);
+        Ok(search)
     }
 
     fn run(&mut self, budget: &Budget<'_>) -> Result<(), Interrupted> {

@@ -1,5 +1,6 @@
 //! The rules that one question is about, in dense numbers.
 
+use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
@@ -52,11 +53,13 @@ impl Problem {
         base: &KnowledgeBase,
         objects: Vec<ObjectIndex>,
         usable: impl Fn(&[ObjectIndex]) -> bool,
-    ) -> Self {
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
+            budget.check()?;
             for option in base.options(object).filter(|option| usable(option)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
@@ -65,8 +68,10 @@ impl Problem {
             }
         }
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
+        budget.check()?;
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        Self { objects, heads, bodies, condition_of }
+        budget.check()?;
+        Ok(Self { objects, heads, bodies, condition_of })
     }
 
     /// The number of nodes besides the target.

@@ -18,7 +18,12 @@ pub(super) fn reduce(
     let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
     let all = reached(base, target, |option| !option.iter().any(held), budget)?;
     let mut chain = Chain::new(&all);
-    (0..all.target()).for_each(|node| chain.allow(node));
+    for node in 0..all.target() {
+        if node % 64 == 0 {
+            budget.check()?;
+        }
+        chain.allow(node);
+    }
     if !chain.reaches_target() {
         return Ok(None);
     }
@@ -48,5 +53,5 @@ fn reached(
         }
     }
     objects.reverse();
-    Ok(Problem::over(base, objects, usable))
+    Problem::over(base, objects, usable, budget)
 }
