@@ -7,9 +7,12 @@ mod arrange;
 mod borders;
 mod candidates;
 mod curves;
+mod effort;
 mod layout;
+mod tabletop;
 
-pub use arrange::{Arrangement, Effort, Task, arrange};
+pub use arrange::{Arrangement, Task, arrange};
+pub use effort::Effort;
 
 use crate::geometry::Grasp;
 use crate::scene::{ObjectIndex, Scene};

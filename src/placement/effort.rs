@@ -1,0 +1,79 @@
+//! How much may be tried: counted, not timed, so that the same question always ends at the same point.
+
+use crate::budget::{Budget, Interrupted};
+
+/// How much more may be tried, in places: about half a microsecond each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    left: u32,
+}
+
+impl Effort {
+    /// So many places.
+    pub fn new(places: u32) -> Self {
+        Self { left: places }
+    }
+
+    /// Places left.
+    pub fn left(&self) -> u32 {
+        self.left
+    }
+
+    /// Split off at most `places`.
+    pub fn split(&mut self, places: u32) -> Self {
+        let part = places.min(self.left);
+        self.left -= part;
+        Self { left: part }
+    }
+
+    /// Give back what is left of a part.
+    pub fn join(&mut self, part: Self) {
+        self.left += part.left;
+    }
+}
+
+/// Why there is no more trying.
+pub(super) enum Stop {
+    /// The effort is spent.
+    Spent,
+    /// The budget ended.
+    Interrupted,
+}
+
+impl From<Interrupted> for Stop {
+    fn from(Interrupted: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
+/// Units of effort between two looks at the budget: some 30 µs.
+pub(super) const BEAT: usize = 64;
+
+/// Spends effort, and looks at the budget now and then.
+pub(super) struct Meter<'e> {
+    effort: &'e mut Effort,
+    budget: &'e Budget<'e>,
+    /// Effort since the last look at the budget.
+    unwatched: usize,
+}
+
+impl<'e> Meter<'e> {
+    pub(super) fn new(effort: &'e mut Effort, budget: &'e Budget<'e>) -> Self {
+        Self { effort, budget, unwatched: 0 }
+    }
+
+    pub(super) fn budget(&self) -> &'e Budget<'e> {
+        self.budget
+    }
+
+    pub(super) fn spend(&mut self, effort: usize) -> Result<(), Stop> {
+        let left = u32::try_from(effort).ok().and_then(|effort| self.effort.left.checked_sub(effort));
+        self.effort.left = left.ok_or(Stop::Spent)?;
+        self.unwatched += effort;
+        if self.unwatched >= BEAT {
+            self.unwatched = 0;
+            self.budget.check()?;
+        }
+        Ok(())
+    }
+}

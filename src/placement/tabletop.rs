@@ -1,0 +1,120 @@
+//! A layout whose questions cost effort: can this be grasped, may that stand here?
+
+use nalgebra::Point2;
+
+use super::INSIDE;
+use super::candidates::Candidates;
+use super::effort::{BEAT, Meter, Stop};
+use super::layout::Layout;
+use crate::geometry::{Grasp, widest_grasp};
+use crate::scene::{Disc, ObjectIndex, distance};
+
+/// What looking for a free yaw costs, in tried places.
+const GRASP_EFFORT: usize = 4;
+
+/// A layout and what may still be tried on it.
+pub(super) struct Tabletop<'a, 'e> {
+    pub(super) layout: Layout<'a>,
+    meter: Meter<'e>,
+}
+
+impl<'a, 'e> Tabletop<'a, 'e> {
+    pub(super) fn new(layout: Layout<'a>, meter: Meter<'e>) -> Self {
+        Self { layout, meter }
+    }
+
+    /// How an object can be grasped where it stands.
+    pub(super) fn grasp(&mut self, object: ObjectIndex) -> Result<Option<Grasp>, Stop> {
+        self.meter.spend(GRASP_EFFORT)?;
+        Ok(self.layout.grasp(object))
+    }
+
+    /// The next best place where the lifted object fits and can be released, and which leaves every grasp still to come
+    /// possible; with its release.
+    pub(super) fn next_place(
+        &mut self,
+        candidates: &mut Candidates,
+        object: ObjectIndex,
+        rest: &[ObjectIndex],
+        skip: impl Fn(Point2<f64>) -> bool,
+    ) -> Result<Option<(Point2<f64>, Grasp)>, Stop> {
+        while let Some(at) = candidates.next(&self.layout, self.meter.budget())? {
+            if !skip(at)
+                && let Some(release) = self.release(candidates, object, at, rest)?
+            {
+                return Ok(Some((at, release)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// How the lifted object can be released there, if it fits and every grasp still to come stays possible.
+    fn release(
+        &mut self,
+        candidates: &Candidates,
+        object: ObjectIndex,
+        at: Point2<f64>,
+        rest: &[ObjectIndex],
+    ) -> Result<Option<Grasp>, Stop> {
+        self.meter.spend(1 + self.layout.scene().table().keep_out().len() / BEAT)?;
+        if !candidates.fits(&self.layout, at) {
+            return Ok(None);
+        }
+        let disc = self.layout.disc(object).at(at);
+        let gripper = self.layout.scene().gripper();
+        if widest_grasp(gripper, &self.layout.blocked(object, &disc, INSIDE)).is_none() {
+            return Ok(None);
+        }
+        let release = widest_grasp(gripper, &self.layout.blocked(object, &disc, 0.0));
+        self.meter.spend(GRASP_EFFORT)?;
+        Ok(if release.is_some() && self.leaves_the_rest_free(object, &disc, rest)? { release } else { None })
+    }
+
+    /// With the object there, can the rest still be lifted one after the other, and the target grasped?
+    fn leaves_the_rest_free(&mut self, object: ObjectIndex, disc: &Disc, rest: &[ObjectIndex]) -> Result<bool, Stop> {
+        let target = self.layout.scene().target();
+        let gripper = self.layout.scene().gripper();
+        let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
+            let grasped = layout.disc(other);
+            let reach = gripper.corner_distance(grasped.radius) + gripper.margin() + disc.radius;
+            distance(grasped.centre, disc.centre) < reach
+        };
+        if !rest.iter().chain([&target]).any(|&other| hinders(&self.layout, other)) {
+            return Ok(true);
+        }
+        self.layout.lift(object, false);
+        let before = self.layout.put(object, disc.centre);
+        let free = self.rest_can_be_lifted(rest);
+        self.layout.take_back(object, before);
+        self.layout.lift(object, true);
+        free
+    }
+
+    fn rest_can_be_lifted(&mut self, rest: &[ObjectIndex]) -> Result<bool, Stop> {
+        let mut lifted = Vec::new();
+        let free = self.lift_all(rest, &mut lifted);
+        lifted.into_iter().for_each(|object| self.layout.lift(object, false));
+        free
+    }
+
+    /// Lift whatever can be lifted. True if that is all of them, and the target can be grasped then.
+    fn lift_all(&mut self, rest: &[ObjectIndex], lifted: &mut Vec<ObjectIndex>) -> Result<bool, Stop> {
+        let mut standing = rest.to_vec();
+        while !standing.is_empty() {
+            let mut stuck = Vec::new();
+            for &object in &standing {
+                if self.grasp(object)?.is_some() {
+                    self.layout.lift(object, true);
+                    lifted.push(object);
+                } else {
+                    stuck.push(object);
+                }
+            }
+            if stuck.len() == standing.len() {
+                return Ok(false);
+            }
+            standing = stuck;
+        }
+        Ok(self.grasp(self.layout.scene().target())?.is_some())
+    }
+}
