@@ -170,8 +170,8 @@ fn most_crowded(scene: &Scene) -> ObjectIndex {
         let mut gaps: Vec<f64> = scene
             .index()
             .within(disc.centre, reach)
-            .filter(|&other| other != index)
-            .map(|other| scene.object(other).disc().gap(&disc))
+            .filter(|(other, _)| *other != index)
+            .map(|(_, other)| other.gap(&disc))
             .collect();
         // Sums depend on the order of their terms, and the index promises none.
         gaps.sort_unstable_by(f64::total_cmp);

@@ -98,11 +98,13 @@ fn blockers(scene: &Scene, object: ObjectIndex) -> Vec<Blocker> {
     let gripper = scene.gripper();
     let disc = scene.object(object).disc();
     let reach = gripper.corner_distance(disc.radius) + gripper.margin();
-    let mut near: Vec<ObjectIndex> =
-        scene.index().within(disc.centre, reach).filter(|&other| other != object).collect();
-    near.sort_unstable();
-    near.into_iter()
-        .map(|other| Blocker { object: other, shadow: shadow(gripper, &disc, &scene.object(other).disc(), 0.0) })
+    let mut near: Vec<Blocker> = scene
+        .index()
+        .within(disc.centre, reach)
+        .filter(|(other, _)| *other != object)
+        .map(|(other, obstacle)| Blocker { object: other, shadow: shadow(gripper, &disc, &obstacle, 0.0) })
         .filter(|blocker| !blocker.shadow.is_empty())
-        .collect()
+        .collect();
+    near.sort_unstable_by_key(|blocker| blocker.object);
+    near
 }

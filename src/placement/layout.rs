@@ -57,15 +57,14 @@ impl<'a> Layout<'a> {
 
     /// What stands nearer than `reach` (edge to point, m) to `centre`, in a fixed order.
     pub(super) fn near(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
-        let first = self.scene.index().within(centre, reach).filter(|object| self.place[object.get()].is_none());
-        let moved = self.moved.iter().copied();
-        first.chain(moved).filter(|&object| !self.is_lifted(object)).map(|object| (object, self.disc(object))).filter(
-            move |(_, disc)| {
-                let apart = disc.centre - centre;
-                let far = reach + disc.radius;
-                apart.norm_squared() < far * far
-            },
-        )
+        let in_place =
+            self.scene.index().within(centre, reach).filter(|(object, _)| self.place[object.get()].is_none());
+        let moved = self.moved.iter().map(|&object| (object, self.disc(object)));
+        let moved = moved.filter(move |(_, disc)| {
+            let (apart, far) = (disc.centre - centre, reach + disc.radius);
+            apart.norm_squared() < far * far
+        });
+        in_place.chain(moved).filter(|(object, _)| !self.is_lifted(*object))
     }
 
     /// The yaws blocked for a grasp or release of `disc`, which is `object` somewhere.

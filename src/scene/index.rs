@@ -7,36 +7,33 @@ use rstar::{AABB, RTree};
 
 use super::object::{Disc, ObjectIndex, distance};
 
-type Entry = GeomWithData<Rectangle<[f64; 2]>, ObjectIndex>;
+/// The disc lies beside its bounds: one that is near is read where it was found.
+type Entry = GeomWithData<Rectangle<[f64; 2]>, (ObjectIndex, Disc)>;
 
 /// The discs of a scene at their first places.
 #[derive(Debug, Clone)]
 pub struct DiscIndex {
     tree: RTree<Entry>,
-    discs: Vec<Disc>,
 }
 
 impl DiscIndex {
     /// Index `discs`; the n-th is [`ObjectIndex`] n.
-    pub fn new(discs: Vec<Disc>) -> Self {
-        let entries = discs.iter().enumerate().map(|(position, disc)| {
+    pub fn new(discs: impl IntoIterator<Item = Disc>) -> Self {
+        let entries = discs.into_iter().enumerate().map(|(position, disc)| {
             let (c, r) = (disc.centre, disc.radius);
             let bounds = Rectangle::from_corners([c.x - r, c.y - r], [c.x + r, c.y + r]);
-            GeomWithData::new(bounds, ObjectIndex::new(position))
+            GeomWithData::new(bounds, (ObjectIndex::new(position), disc))
         });
-        Self { tree: RTree::bulk_load(entries.collect()), discs }
+        Self { tree: RTree::bulk_load(entries.collect()) }
     }
 
     /// The objects whose discs come nearer than `reach` to `centre` (edge to point, m), in no particular order.
-    pub fn within(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = ObjectIndex> + '_ {
+    pub fn within(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
         let corner = |sign: f64| [centre.x + sign * reach, centre.y + sign * reach];
         self.tree
             .locate_in_envelope_intersecting(AABB::from_corners(corner(-1.0), corner(1.0)))
             .map(|entry| entry.data)
-            .filter(move |index| {
-                let disc = &self.discs[index.get()];
-                distance(disc.centre, centre) < reach + disc.radius
-            })
+            .filter(move |(_, disc)| distance(disc.centre, centre) < reach + disc.radius)
     }
 }
 
@@ -52,10 +49,10 @@ mod tests {
                 radius: if n % 29 == 0 { 0.3 } else { 0.001 * f64::from(n % 7 + 1) },
             })
             .collect();
-        let index = DiscIndex::new(discs.clone());
+        let index = DiscIndex::new(discs.iter().copied());
         for n in 0..50_u32 {
             let centre = Point2::new(f64::from(n) / 25.0 - 1.0, f64::from(n * 7 % 50) / 25.0);
-            let mut found: Vec<_> = index.within(centre, 0.1).collect();
+            let mut found: Vec<_> = index.within(centre, 0.1).map(|(object, _)| object).collect();
             found.sort_unstable();
             let scan = discs.iter().enumerate().filter(|(_, d)| distance(d.centre, centre) - d.radius < 0.1);
             assert_eq!(found, scan.map(|(i, _)| ObjectIndex::new(i)).collect::<Vec<_>>());

@@ -60,7 +60,7 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     let target = draft.target.as_ref().and_then(|id| target(id, &ids, &draft.objects, &mut faults));
     // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
     let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
-    let index = DiscIndex::new(objects.iter().map(Object::disc).collect());
+    let index = DiscIndex::new(objects.iter().map(Object::disc));
     overlaps(&objects, &index, limits, &mut faults, &mut warnings);
     if let Some(gripper) = &gripper {
         reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
@@ -193,7 +193,8 @@ fn overlaps(
     let (tolerance, max) = (limits.overlap_tolerance, limits.max_neighbours);
     for (at, object) in objects.iter().enumerate() {
         let disc = object.disc;
-        let mut touched: Vec<ObjectIndex> = index.within(disc.centre, disc.radius).take(max + 2).collect();
+        let near = index.within(disc.centre, disc.radius);
+        let mut touched: Vec<ObjectIndex> = near.map(|(other, _)| other).take(max + 2).collect();
         if touched.len() > max + 1 {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: object.id.clone(), max });
         }

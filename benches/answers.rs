@@ -1,0 +1,74 @@
+//! Whole answers: from the request body to the bytes of the response, the check included.
+
+use core::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use singulate::budget::Budget;
+use singulate::experiments::{Recipe, generate};
+use singulate::knowledge::complete;
+use singulate::plan::{Settings, plan};
+use singulate::scene::{ObjectIndex, Scene, SceneLimits};
+use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_scene};
+
+const SCENES: u64 = 40;
+
+fn paper_scenes(criterion: &mut Criterion) {
+    let scenes: Vec<Scene> = (0..SCENES).map(paper_50).collect();
+    let bodies: Vec<Vec<u8>> =
+        scenes.iter().map(|scene| serde_json::to_vec(&SceneBody::new(scene, None)).expect("JSON")).collect();
+    let mut group = criterion.benchmark_group("paper N=50");
+    spread(&bodies);
+    let mut next = bodies.iter().cycle();
+    group.bench_function("body to body", |bencher| {
+        bencher.iter(|| black_box(answer(next.next().expect("a cycle"))));
+    });
+    let mut next = scenes.iter().cycle();
+    group.bench_function("plan alone", |bencher| {
+        bencher.iter(|| {
+            let scene = next.next().expect("a cycle");
+            black_box(plan(scene, &Settings::default(), &Budget::unlimited()).expect("checked"))
+        });
+    });
+    group.finish();
+}
+
+/// Per scene the fastest of some runs; over the scenes the median and the worst.
+fn spread(bodies: &[Vec<u8>]) {
+    let fastest = |body: &Vec<u8>| {
+        let run = |_| {
+            let started = Instant::now();
+            black_box(answer(body));
+            started.elapsed()
+        };
+        (0..9).map(run).min().expect("some runs")
+    };
+    let mut times: Vec<Duration> = bodies.iter().map(fastest).collect();
+    times.sort_unstable();
+    println!(
+        "paper N=50, {} scenes: median {:?}, worst {:?}",
+        times.len(),
+        times[times.len() / 2],
+        times[times.len() - 1]
+    );
+}
+
+fn answer(body: &[u8]) -> Vec<u8> {
+    let request = read_scene(body, &RequestLimits::default()).expect("sound");
+    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).expect("checked");
+    serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON")
+}
+
+/// The paper's Case II with 50 objects: 1.4 × 1.4 m, the target the object with the largest least option.
+fn paper_50(seed: u64) -> Scene {
+    let recipe = Recipe { objects: 50, table: (1.4, 1.4), ..Recipe::default() };
+    let draft = generate(&recipe, seed).expect("fits");
+    let (scene, _) = Scene::new(draft, &SceneLimits::default()).expect("a sound scene");
+    let base = complete(&scene, &Budget::unlimited()).expect("small");
+    let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();
+    let hardest = scene.indices().max_by_key(least).expect("not empty");
+    scene.with_target(hardest).expect("nothing is fixed")
+}
+
+criterion_group!(benches, paper_scenes);
+criterion_main!(benches);

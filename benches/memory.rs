@@ -1,0 +1,162 @@
+//! Peak memory of one whole answer, each case in a process of its own: from the request body to the response.
+//!
+//! Fails where one takes more than 100 MB. Linux only: reads the peak from `/proc`.
+
+mod cases;
+
+use std::env;
+use std::fs;
+use std::process::{Command, ExitCode};
+
+use singulate::budget::Budget;
+use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::plan::{PlanError, Verdict, plan};
+use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate::wire::{AnswerBody, RequestLimits, read_scene};
+
+const MAX_PEAK_KB: u64 = 100_000;
+type Case = (&'static str, fn() -> SceneDraft);
+
+const CASES: [Case; 8] = [
+    ("10,000 dishes at 45 %", || cases::equal_density(10_000, 0)),
+    ("10,000 dishes at 45 %, the deepest target", || deepest(cases::equal_density(10_000, 0))),
+    ("a pressed cluster of 1,000", || pressed(1000, 0)),
+    ("10,000 crumbs, a clearance of 5 mm", || crumbs(2.0, 0.005)),
+    ("10,000 crumbs, a clearance of 6 mm", || crumbs(2.0, 0.006)),
+    ("10,000 crumbs, a clearance of 7 mm", || crumbs(2.0, 0.007)),
+    ("10,000 crumbs, a clearance of 16.5 mm", || crumbs(4.0, 0.0165)),
+    ("a plate among crumbs", plate_among_crumbs),
+];
+
+fn main() -> ExitCode {
+    // `cargo bench` passes `--bench`; a child gets its case.
+    if let Some(case) = env::args().nth(1).and_then(|argument| argument.parse::<usize>().ok()) {
+        answer(case);
+        return ExitCode::SUCCESS;
+    }
+    let mut within = true;
+    for (at, (name, _)) in CASES.iter().enumerate() {
+        let child = Command::new(env::current_exe().expect("a path")).arg(at.to_string()).output().expect("a child");
+        let text = String::from_utf8_lossy(&child.stdout);
+        let (peak, verdict) = text.trim().split_once(' ').unwrap_or(("", "failed"));
+        let kb: u64 = peak.parse().unwrap_or(u64::MAX);
+        println!("{name:<44} {:>8.1} MB   {verdict}", f64::from(u32::try_from(kb).unwrap_or(u32::MAX)) / 1000.0);
+        within &= kb <= MAX_PEAK_KB;
+    }
+    println!("at most {} MB", MAX_PEAK_KB / 1000);
+    if within { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn answer(case: usize) {
+    let body = json(&CASES[case].1());
+    let verdict = match read_scene(body.as_bytes(), &RequestLimits::default()) {
+        Err(problem) => format!("refused: {}", problem.errors()[0].code),
+        Ok(request) => match plan(&request.scene, &request.settings, &Budget::unlimited()) {
+            Err(PlanError::TooDense) => "refused: too_dense".to_owned(),
+            Err(PlanError::Refused(report)) => panic!("{report:?}"),
+            Ok(answer) => {
+                let bytes = serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON").len();
+                format!("{}, {bytes} bytes", name(&answer.verdict))
+            }
+        },
+    };
+    let status = fs::read_to_string("/proc/self/status").expect("Linux");
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
+    println!("{} {verdict}", peak.trim().trim_end_matches(" kB"));
+}
+
+fn name(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Graspable(_) => "graspable",
+        Verdict::Relocate(_) => "relocate",
+        Verdict::Deadlock(_) => "deadlock",
+        Verdict::NoSpace(_) => "no_space",
+        Verdict::TimedOut(_) => "timed_out",
+    }
+}
+
+/// The target that chaining reaches last.
+fn deepest(draft: SceneDraft) -> SceneDraft {
+    let scene = cases::scene(draft.clone());
+    let base = singulate::knowledge::complete(&scene, &Budget::unlimited()).expect("within the limits");
+    let closure = singulate::knowledge::close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
+    let last = closure.order.last().expect("not all are locked");
+    SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }
+}
+
+/// The draft as a request body, written piece by piece: its own memory must not count.
+fn json(draft: &SceneDraft) -> String {
+    let number = |value: Option<f64>| value.expect("a full draft");
+    let object = |object: &ObjectDraft| {
+        let id = object.id.as_deref().expect("an id");
+        let (x, y, radius) = (number(object.x), number(object.y), number(object.radius));
+        format!(r#"{{"id":"{id}","x":{x},"y":{y},"radius":{radius}}}"#)
+    };
+    let objects: Vec<String> = draft.objects.iter().map(object).collect();
+    let (top, gripper) = (&draft.table.top, &draft.gripper);
+    format!(
+        r#"{{"table":{{"x_min":{},"y_min":{},"x_max":{},"y_max":{}}},"gripper":{{"fingers":{},"finger_width":{},"clearance":{}}},"objects":[{}],"target":"{}"}}"#,
+        number(top.x_min),
+        number(top.y_min),
+        number(top.x_max),
+        number(top.y_max),
+        number(gripper.fingers),
+        number(gripper.finger_width),
+        number(gripper.clearance),
+        objects.join(","),
+        draft.target.as_deref().expect("a target"),
+    )
+}
+
+/// `objects` dishes of two sizes in one pressed cluster, for a gripper with four slim fingers.
+fn pressed(objects: usize, seed: u64) -> SceneDraft {
+    let side = (cases::count(objects) * 0.05 * 0.05 * core::f64::consts::PI / 0.3).sqrt();
+    let gripper = GripperDraft { fingers: Some(4.0), finger_width: Some(0.01), ..Recipe::default().gripper };
+    let recipe = Recipe {
+        objects,
+        table: (side, side),
+        radius: (0.04, 0.06),
+        gripper,
+        arrangement: Arrangement::Pressed,
+        pressed_gap: 0.015,
+        ..Recipe::default()
+    };
+    generate(&recipe, seed).expect("fits")
+}
+
+/// 10,000 crumbs, all but touching. With a clearance of 16.5 mm a grasp has as many in reach as the limit admits.
+fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
+    let pitch = 0.0022;
+    let place = |n: u32, shift: u32| 0.01 + pitch * f64::from(n) + 1e-5 * f64::from(shift % 11);
+    let crumb = |(i, j): (u32, u32)| ObjectDraft {
+        id: Some(format!("c{i}-{j}")),
+        x: Some(place(i, 7 * i + 13 * j)),
+        y: Some(place(j, 5 * i + 3 * j)),
+        radius: Some(0.001),
+        fixed: false,
+    };
+    let objects = (0..100).flat_map(|i| (0..100).map(move |j| (i, j))).map(crumb).collect();
+    let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(0.4), y_max: Some(0.4) };
+    let gripper = GripperDraft {
+        fingers: Some(fingers),
+        finger_width: Some(0.0002),
+        clearance: Some(clearance),
+        ..Recipe::default().gripper
+    };
+    SceneDraft { table: TableDraft { top, keep_out: Vec::new() }, gripper, objects, target: Some("c50-50".into()) }
+}
+
+/// One large plate among some 7,000 crumbs.
+fn plate_among_crumbs() -> SceneDraft {
+    let mut draft = crumbs(3.0, 0.0165);
+    let beside = |crumb: &ObjectDraft| {
+        let (x, y) = (crumb.x.unwrap_or_default() - 0.12, crumb.y.unwrap_or_default() - 0.12);
+        (x * x + y * y).sqrt() > 0.0765
+    };
+    draft.objects.retain(beside);
+    let plate =
+        ObjectDraft { id: Some("plate".into()), x: Some(0.12), y: Some(0.12), radius: Some(0.075), fixed: false };
+    draft.objects.push(plate);
+    draft.target = Some("plate".into());
+    draft
+}
