@@ -112,10 +112,10 @@ pub enum ActionWord {
 /// A point on the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 pub struct PointBody {
-    /// m.
+    /// Along the table\'s x, m.
     #[schema(example = 0.4)]
     pub x: f64,
-    /// m.
+    /// Along the table\'s y, m.
     #[schema(example = 0.2)]
     pub y: f64,
 }
@@ -264,7 +264,8 @@ impl GraspBody {
 
 impl StatisticsBody {
     fn new(statistics: &Statistics) -> Self {
-        let ms = |duration: Duration| duration.as_secs_f64() * 1000.0;
+        // Whole nanoseconds, so that 15.72 µs is not written as 0.015719999999999998.
+        let ms = |duration: Duration| (duration.as_secs_f64() * 1e9).round() / 1e6;
         Self {
             knowledge_ms: ms(statistics.knowledge),
             search_ms: ms(statistics.search),
