@@ -22,7 +22,8 @@ use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
 /// Plan now
 ///
 /// Which objects to move, in which order, to where, so that the gripper can grasp the target; or the proof that nothing
-/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`.
+/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`;
+/// a scene too large to be read within it is `timed_out` unread, even if it is faulty.
 #[utoipa::path(
     post,
     path = "/v1/plans",

@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
-use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::experiments::{Recipe, generate};
 use singulate::scene::{Scene, SceneDraft, SceneLimits};
 use singulate::wire::SceneBody;
 
-use crate::host::{Host, PATIENCE, raw_plan};
+use crate::host::{Host, PATIENCE, raw_post};
 
 fn body(draft: SceneDraft, time_limit_ms: u64) -> Value {
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
@@ -24,17 +24,29 @@ fn many(time_limit_ms: u64) -> Value {
     body(generate(&recipe, 0).unwrap(), time_limit_ms)
 }
 
-/// Several seconds of search and placement for one thread, and more.
+/// Dishes in rows, at such a distance that about half of them can be freed, by many relocations: the survey of them all
+/// takes minutes.
 fn hard(time_limit_ms: u64) -> Value {
-    let recipe = Recipe {
-        objects: 400,
-        table: (3.2, 3.2),
-        radius: (0.03, 0.07),
-        arrangement: Arrangement::Pressed,
-        pressed_gap: 0.02,
-        ..Recipe::default()
+    let (count, pitch) = (60, 0.112);
+    let mut state: u32 = 5;
+    let mut random = |least: f64, width: f64| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        least + width * f64::from(state >> 16) / 65_536.0
     };
-    body(generate(&recipe, 3).unwrap(), time_limit_ms)
+    let dishes = (0..count * count).map(|n| {
+        let (row, column) = (n / count, n % count);
+        let shift = 0.5 * f64::from(row % 2);
+        let x = 0.1 + pitch * (f64::from(column) + shift) + random(-0.004, 0.008);
+        let y = 0.1 + pitch * 0.866 * f64::from(row) + random(-0.004, 0.008);
+        json!({"id": format!("d{n}"), "x": x, "y": y, "radius": random(0.045, 0.005)})
+    });
+    json!({
+        "table": {"x_min": 0, "y_min": 0, "x_max": 7.2, "y_max": 7.2},
+        "gripper": {"fingers": 3, "finger_width": 0.015, "clearance": 0.05},
+        "objects": dishes.collect::<Vec<_>>(),
+        "target": "d0",
+        "settings": {"time_limit_ms": time_limit_ms}
+    })
 }
 
 #[tokio::test]
@@ -73,13 +85,14 @@ async fn a_large_scene_is_answered_like_a_small_one() {
 async fn many_clients_that_hang_up_leave_nothing_behind() {
     let settings = ServerSettings { threads: 1, queue: 2, ..ServerSettings::default() };
     let host = Host::with(settings, Engine::default()).await;
-    let request = raw_plan(&hard(60_000));
+    let request = raw_post("/v1/survey", &hard(60_000));
     let started = Instant::now();
     for _ in 0..50 {
         drop(host.raw(&request));
     }
+    // One that has come so far that it computes.
     let running = host.raw(&request);
-    tokio::time::sleep(Duration::from_millis(50)).await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
     drop(running);
     // Each of them would hold the only thread or a place in the queue.
     let mut easy = crate::host::scene(10_000);
