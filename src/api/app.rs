@@ -76,7 +76,7 @@ impl App {
         work: impl FnOnce(&R, &Budget<'_>) -> Served + Send + 'static,
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
-        let reading = Arc::new(Reading::begin(body, read, self.settings.limits).await?);
+        let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
         log::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);
         let job = move |budget: &Budget<'_>| work(own.request()?, budget);
