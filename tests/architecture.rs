@@ -165,7 +165,7 @@ fn only_wire_and_above_know_json() {
         if ["render", "experiments"].contains(&room.as_str()) {
             assert!(!names(&text, "serde_json") && !names(&text, "serde"), "{} names serde", path.display());
         }
-        if ["wire", "jobs"].contains(&room.as_str()) {
+        if ["render", "experiments", "wire", "jobs"].contains(&room.as_str()) {
             assert!(!names(&text, "axum"), "{} names axum", path.display());
         }
     }
@@ -176,4 +176,60 @@ fn a_word_is_found_only_as_a_word() {
     assert!(names("use rand::Rng;", "rand") && !names("operand", "rand") && !names("rand_chacha", "rand"));
     assert_eq!(named_rooms("use crate::plan::plan;\nuse crate::scene::Scene;"), ["scene", "plan"]);
     assert_eq!(code("a // serde\n#[cfg(test)]\nmod tests { serde }"), "a ");
+}
+
+/// What is written about the tree.
+fn page() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md")).unwrap()
+}
+
+/// The map's rooms, each with its lines: a room begins at two spaces, its files stand deeper.
+fn mapped_rooms(page: &str) -> Vec<(&str, String)> {
+    let mut rooms: Vec<(&str, String)> = Vec::new();
+    for line in page.split("```").nth(1).unwrap().lines() {
+        match line.strip_prefix("  ") {
+            Some(entry) if !entry.starts_with(' ') => {
+                let name = entry.split(' ').next().unwrap();
+                rooms.push((name.trim_end_matches(".rs").trim_end_matches('/'), entry.to_owned()));
+            }
+            Some(entry) => rooms.last_mut().unwrap().1.push_str(&format!("\n{entry}")),
+            None => {}
+        }
+    }
+    rooms
+}
+
+#[test]
+fn the_map_names_every_module() {
+    let page = page();
+    let map = mapped_rooms(&page);
+    let rooms: Vec<&str> = map.iter().map(|(room, _)| *room).collect();
+    assert_eq!(rooms, [&["lib"], &ROOMS[..], &["main"]].concat());
+    for Source { room, path, .. } in sources() {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        // What only tests compile has no place on the map.
+        if ["mod.rs", "scenes.rs"].contains(&name) || path.parent().unwrap().ends_with("tests") {
+            continue;
+        }
+        let entry = &map.iter().find(|(mapped, _)| *mapped == room).unwrap().1;
+        assert!(names(entry, name), "{} is not on the map", path.display());
+    }
+}
+
+#[test]
+fn every_test_that_is_named_is_there() {
+    let mut files = Vec::new();
+    for folder in ["src", "tests"] {
+        collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut files);
+    }
+    let all: String = files.iter().map(|path| fs::read_to_string(path).unwrap()).collect();
+    let page = page();
+    let absent = page.split("## What is absent").nth(1).unwrap().split("## ").next().unwrap();
+    let rows = absent.lines().filter(|line| line.starts_with("| "));
+    let quoted = rows.flat_map(|row| row.rsplit_once(" | ").unwrap().1.split('`').skip(1).step_by(2));
+    let tests: Vec<&str> = quoted.filter(|word| word.matches('_').count() > 2).collect();
+    assert!(tests.len() > 15, "{tests:?}");
+    for test in tests {
+        assert!(all.contains(&format!("fn {test}(")), "there is no test {test}");
+    }
 }

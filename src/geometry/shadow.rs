@@ -28,3 +28,83 @@ pub fn shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: f64) ->
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::TAU;
+
+    use nalgebra::{Point2, Rotation2};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
+
+    fn gripper(fingers: u32, finger_width: f64, clearance: f64, margin: f64) -> Gripper {
+        let side = |at: f64| Some(at);
+        let top = RectangleDraft { x_min: side(-9.0), y_min: side(-9.0), x_max: side(9.0), y_max: side(9.0) };
+        let only = ObjectDraft { id: Some("a".into()), x: side(0.0), y: side(0.0), radius: side(1.0), fixed: false };
+        let gripper = GripperDraft {
+            fingers: Some(fingers.into()),
+            finger_width: Some(finger_width),
+            clearance: Some(clearance),
+            margin: Some(margin),
+            yaw_tolerance: Some(0.0),
+        };
+        let table = TableDraft { top, keep_out: vec![] };
+        let draft = SceneDraft { table, gripper, objects: vec![only], target: Some("a".into()) };
+        *Scene::new(draft, &SceneLimits::default()).expect("a sound scene").0.gripper()
+    }
+
+    /// How far the obstacle's edge is from the nearest finger, beyond the margin, m: the definition, finger by finger.
+    fn room(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, yaw: f64) -> f64 {
+        let (inner, outer) = (grasped.radius, grasped.radius + gripper.clearance());
+        (0..gripper.fingers())
+            .map(|finger| {
+                let turn = Rotation2::new(-(yaw + TAU * f64::from(finger) / f64::from(gripper.fingers())));
+                let at = turn * (obstacle.centre - grasped.centre);
+                let dx = (inner - at.x).max(at.x - outer).max(0.0);
+                let dy = (at.y.abs() - gripper.finger_width() / 2.0).max(0.0);
+                (dx * dx + dy * dy).sqrt() - obstacle.radius - gripper.margin()
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// From 1 mm to 1 m, evenly in every order of magnitude.
+    fn length() -> impl Strategy<Value = f64> {
+        (-3.0..0.0_f64).prop_map(|exponent| libm::pow(10.0, exponent))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1500))]
+
+        #[test]
+        fn a_yaw_is_in_the_shadow_exactly_when_some_finger_meets_the_obstacle(
+            fingers in 2_u32..=12,
+            (radius, obstacle_radius, finger_width, clearance) in (length(), length(), length(), length()),
+            margin in prop_oneof![Just(0.0), length()],
+            (away, bearing) in (0.0..1.1_f64, 0.0..TAU),
+            (x, y) in (-5.0..5.0_f64, -5.0..5.0_f64),
+        ) {
+            let gripper = gripper(fingers, finger_width, clearance, margin);
+            let grasped = Disc { centre: Point2::new(x, y), radius };
+            // From touching to just out of reach.
+            let (near, far) = (radius, gripper.corner_distance(radius) + margin);
+            let apart = obstacle_radius + near + away * (far - near);
+            let towards = Rotation2::new(bearing) * nalgebra::Vector2::new(apart, 0.0);
+            let obstacle = Disc { centre: grasped.centre + towards, radius: obstacle_radius };
+            let shadow = shadow(&gripper, &grasped, &obstacle, 0.0);
+            for step in 0..1440 {
+                let yaw = TAU * f64::from(step) / 1440.0;
+                let room = room(&gripper, &grasped, &obstacle, yaw);
+                let folded = super::super::arcs::wrap(yaw, gripper.period());
+                let says = shadow.arcs().iter().any(|arc| arc.lo < folded && folded < arc.hi);
+                // A full shadow is closed at the turn's seam.
+                prop_assert!(
+                    room.abs() < 1e-9 || says == (room < 0.0) || shadow.is_full() && room < 0.0
+                        || (folded.min(gripper.period() - folded) < 1e-9),
+                    "yaw {yaw} room {room} {shadow:?}"
+                );
+            }
+        }
+    }
+}

@@ -24,6 +24,7 @@ pub fn close(
     budget: &Budget<'_>,
 ) -> Result<Closure, Interrupted> {
     let condition_of = ConditionOf::new(base);
+    budget.check()?;
     let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
     let mut closure = Closure { order: Vec::new(), derived: vec![false; base.len()] };
     for object in base.objects() {
@@ -34,6 +35,7 @@ pub fn close(
             closure.derive(object);
         }
     }
+    budget.check()?;
     let mut at = 0;
     while let Some(&object) = closure.order.get(at) {
         at += 1;

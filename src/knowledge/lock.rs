@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use super::base::KnowledgeBase;
 use super::closure::Closure;
-use crate::budget::Budget;
+use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
 /// The greatest lock and an inclusion-minimal one within it, both in index order.
@@ -21,12 +21,20 @@ pub struct Lock {
 
 /// The lock that holds `target`, which `closure` (of the same base) must not derive. An object without options is a member
 /// that needs no proof of its own.
-pub fn lock(base: &KnowledgeBase, closure: &Closure, target: ObjectIndex, budget: &Budget<'_>) -> Lock {
-    let mut grown = Core::grow(base, closure, target);
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends before there is a lock at all.
+pub fn lock(
+    base: &KnowledgeBase,
+    closure: &Closure,
+    target: ObjectIndex,
+    budget: &Budget<'_>,
+) -> Result<Lock, Interrupted> {
+    let mut grown = Core::grow(base, closure, target, budget)?;
     grown.minimise(budget);
     let movable = |object: &ObjectIndex| !base.rules_of(*object).is_empty();
     let blocked = base.objects().filter(|object| !closure.derives(*object)).filter(movable).collect();
-    Lock { blocked, core: grown.members() }
+    Ok(Lock { blocked, core: grown.members() })
 }
 
 /// A lock under construction.
@@ -44,7 +52,12 @@ struct Core<'a> {
 
 impl<'a> Core<'a> {
     /// From the target outwards: whoever is in needs, for each option that no member holds, one more underived member.
-    fn grow(base: &'a KnowledgeBase, closure: &Closure, target: ObjectIndex) -> Self {
+    fn grow(
+        base: &'a KnowledgeBase,
+        closure: &Closure,
+        target: ObjectIndex,
+        budget: &Budget<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut core = Self {
             base,
             target,
@@ -56,12 +69,13 @@ impl<'a> Core<'a> {
         let mut open = VecDeque::from([target]);
         core.enter(target);
         while let Some(object) = open.pop_front() {
+            budget.check()?;
             while let Some(holder) = core.best_holder(object, closure) {
                 core.enter(holder);
                 open.push_back(holder);
             }
         }
-        core
+        Ok(core)
     }
 
     fn enter(&mut self, object: ObjectIndex) {
@@ -159,7 +173,7 @@ mod tests {
         if closure.derives(target) {
             return None;
         }
-        let lock = lock(base, &closure, target, &Budget::unlimited());
+        let lock = lock(base, &closure, target, &Budget::unlimited()).expect("unlimited");
         assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
         let with_stuck: Vec<_> = base.objects().filter(|object| !closure.derives(*object)).collect();
         assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));

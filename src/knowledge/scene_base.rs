@@ -71,18 +71,23 @@ pub fn relevant(scene: &Scene, target: ObjectIndex, budget: &Budget<'_>) -> Resu
 }
 
 /// The fixed objects that block a member at some yaw, in index order.
-pub fn fixed_blockers(scene: &Scene, members: &[ObjectIndex]) -> Vec<ObjectIndex> {
-    let fixed = |object: &ObjectIndex| scene.object(*object).fixed();
-    let mut found: Vec<ObjectIndex> = members
-        .iter()
-        .filter(|member| !fixed(member))
-        .flat_map(|&member| blockers(scene, member))
-        .map(|blocker| blocker.object)
-        .filter(fixed)
-        .collect();
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub fn fixed_blockers(
+    scene: &Scene,
+    members: &[ObjectIndex],
+    budget: &Budget<'_>,
+) -> Result<Vec<ObjectIndex>, Interrupted> {
+    let fixed = |object: ObjectIndex| scene.object(object).fixed();
+    let mut found: Vec<ObjectIndex> = Vec::new();
+    for &member in members.iter().filter(|member| !fixed(**member)) {
+        budget.check()?;
+        found.extend(blockers(scene, member, fixed).into_iter().map(|blocker| blocker.object));
+    }
     found.sort_unstable();
     found.dedup();
-    found
+    Ok(found)
 }
 
 /// None for a fixed object. Options that hold a fixed object stay: no rule with one ever fires, and locks need them.
@@ -90,18 +95,18 @@ fn options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
     if scene.object(object).fixed() {
         return Vec::new();
     }
-    minimal_options(&blockers(scene, object), scene.gripper().min_free_width())
+    minimal_options(&blockers(scene, object, |_| true), scene.gripper().min_free_width())
 }
 
-/// The obstacles that block a grasp of `object` at some yaw, in index order.
-fn blockers(scene: &Scene, object: ObjectIndex) -> Vec<Blocker> {
+/// Those obstacles of a kind that block a grasp of `object` at some yaw, in index order.
+fn blockers(scene: &Scene, object: ObjectIndex, of_kind: impl Fn(ObjectIndex) -> bool) -> Vec<Blocker> {
     let gripper = scene.gripper();
     let disc = scene.object(object).disc();
     let reach = gripper.corner_distance(disc.radius) + gripper.margin();
     let mut near: Vec<Blocker> = scene
         .index()
         .within(disc.centre, reach)
-        .filter(|(other, _)| *other != object)
+        .filter(|(other, _)| *other != object && of_kind(*other))
         .map(|(other, obstacle)| Blocker { object: other, shadow: shadow(gripper, &disc, &obstacle, 0.0) })
         .filter(|blocker| !blocker.shadow.is_empty())
         .collect();

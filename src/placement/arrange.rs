@@ -1,8 +1,8 @@
 //! Orders and places for one set of objects to relocate.
 //!
 //! Depth-first over which object goes next and where, with a width that doubles each round: first the best place and the
-//! first order only, later more of both. The effort is counted in tried places, so that the same question always ends at
-//! the same point.
+//! first order only, later more of both. The effort is counted in tried places and in the grasps looked for, not in time, so
+//! that the same question always ends at the same point.
 
 use nalgebra::Point2;
 
@@ -36,7 +36,7 @@ pub struct Arrangement {
     pub target_grasp: Grasp,
 }
 
-/// How many more places may be tried.
+/// How much more may be tried, in places: about half a microsecond each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     left: u32,
@@ -66,6 +66,11 @@ impl Effort {
     }
 }
 
+/// What looking for a free yaw costs, in tried places.
+const GRASP_EFFORT: usize = 4;
+/// Units of effort between two looks at the budget: some 30 µs.
+const BEAT: usize = 64;
+
 /// The widest round. Past that, variety is in the sets and in extra moves rather than in more places of the same kind.
 const MAX_WIDTH: usize = 16;
 
@@ -84,6 +89,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
             truncated: false,
             layout: Layout::new(task.scene),
             relocations: Vec::new(),
+            unwatched: 0,
         };
         match arranger.step(task.set, task.extra) {
             Ok(Some(arrangement)) => return Ok(Some(arrangement)),
@@ -115,6 +121,8 @@ struct Arranger<'a, 'e> {
     truncated: bool,
     layout: Layout<'a>,
     relocations: Vec<Relocation>,
+    /// Effort since the last look at the budget.
+    unwatched: usize,
 }
 
 impl Arranger<'_, '_> {
@@ -126,8 +134,7 @@ impl Arranger<'_, '_> {
             let done = self.layout.grasp(target);
             return Ok(done.map(|target_grasp| Arrangement { relocations: relocations(), target_grasp }));
         }
-        let graspable: Vec<(ObjectIndex, Grasp)> =
-            remaining.iter().filter_map(|&object| Some((object, self.layout.grasp(object)?))).collect();
+        let graspable = self.graspable(remaining)?;
         self.truncated |= graspable.len() > self.width;
         for &(object, grasp) in graspable.iter().take(self.width) {
             let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != object).collect();
@@ -143,6 +150,19 @@ impl Arranger<'_, '_> {
         Ok(None)
     }
 
+    fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
+        let mut graspable = Vec::new();
+        for &object in remaining {
+            graspable.extend(self.grasp(object)?.map(|grasp| (object, grasp)));
+        }
+        Ok(graspable)
+    }
+
+    fn grasp(&mut self, object: ObjectIndex) -> Result<Option<Grasp>, Stop> {
+        self.spend(GRASP_EFFORT)?;
+        Ok(self.layout.grasp(object))
+    }
+
     /// Move some other object of whose absence `stuck` could make use.
     fn make_room(
         &mut self,
@@ -155,8 +175,7 @@ impl Arranger<'_, '_> {
             !scene.object(*object).fixed() && *object != scene.target() && !remaining.contains(object)
         };
         for object in scene.indices().filter(other) {
-            self.spend()?;
-            let Some(grasp) = self.layout.grasp(object) else { continue };
+            let Some(grasp) = self.grasp(object)? else { continue };
             if self.frees_a_place(object, stuck, remaining)?
                 && let Some(done) = self.relocate(object, grasp, remaining, extra)?
             {
@@ -178,11 +197,14 @@ impl Arranger<'_, '_> {
         self.layout.lift(stuck, true);
         let mut candidates = Candidates::new(&self.layout, self.wish(stuck, 0.0));
         let found = loop {
-            let Some(at) = candidates.next(&self.layout) else { break Ok(false) };
-            match self.is_place(&candidates, stuck, at, &rest) {
-                Ok(None) => {}
-                Ok(Some(_)) => break Ok(true),
-                Err(stop) => break Err(stop),
+            match candidates.next(&self.layout, self.budget) {
+                Ok(Some(at)) => match self.is_place(&candidates, stuck, at, &rest) {
+                    Ok(None) => {}
+                    Ok(Some(_)) => break Ok(true),
+                    Err(stop) => break Err(stop),
+                },
+                Ok(None) => break Ok(false),
+                Err(interrupted) => break Err(interrupted.into()),
             }
         };
         self.layout.lift(stuck, false);
@@ -205,7 +227,7 @@ impl Arranger<'_, '_> {
             let wish = self.wish(object, preferred);
             let mut candidates =
                 if spread { Candidates::spread(&self.layout, wish) } else { Candidates::new(&self.layout, wish) };
-            while let Some(at) = candidates.next(&self.layout) {
+            while let Some(at) = candidates.next(&self.layout, self.budget)? {
                 // A place next to one that led nowhere leads nowhere either.
                 if taken.iter().any(|&other| distance(other, at) < disc.radius) {
                     continue;
@@ -258,9 +280,12 @@ impl Arranger<'_, '_> {
         }
     }
 
-    fn spend(&mut self) -> Result<(), Stop> {
-        self.effort.left = self.effort.left.checked_sub(1).ok_or(Stop::Spent)?;
-        if self.effort.left.is_multiple_of(16) {
+    fn spend(&mut self, effort: usize) -> Result<(), Stop> {
+        self.effort.left =
+            u32::try_from(effort).ok().and_then(|effort| self.effort.left.checked_sub(effort)).ok_or(Stop::Spent)?;
+        self.unwatched += effort;
+        if self.unwatched >= BEAT {
+            self.unwatched = 0;
             self.budget.check()?;
         }
         Ok(())
@@ -274,7 +299,7 @@ impl Arranger<'_, '_> {
         at: Point2<f64>,
         rest: &[ObjectIndex],
     ) -> Result<Option<Grasp>, Stop> {
-        self.spend()?;
+        self.spend(1 + self.task.scene.table().keep_out().len() / BEAT)?;
         if !candidates.fits(&self.layout, at) {
             return Ok(None);
         }
@@ -284,11 +309,12 @@ impl Arranger<'_, '_> {
             return Ok(None);
         }
         let release = widest_grasp(gripper, &self.layout.blocked(object, &disc, 0.0));
-        Ok(release.filter(|_| self.leaves_the_rest_free(object, &disc, rest)))
+        self.spend(GRASP_EFFORT)?;
+        Ok(if release.is_some() && self.leaves_the_rest_free(object, &disc, rest)? { release } else { None })
     }
 
     /// With the object there, can the rest still be lifted one after the other, and the target grasped?
-    fn leaves_the_rest_free(&mut self, object: ObjectIndex, disc: &Disc, rest: &[ObjectIndex]) -> bool {
+    fn leaves_the_rest_free(&mut self, object: ObjectIndex, disc: &Disc, rest: &[ObjectIndex]) -> Result<bool, Stop> {
         let target = self.task.scene.target();
         let gripper = self.task.scene.gripper();
         let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
@@ -297,7 +323,7 @@ impl Arranger<'_, '_> {
             distance(grasped.centre, disc.centre) < reach
         };
         if !rest.iter().chain([&target]).any(|&other| hinders(&self.layout, other)) {
-            return true;
+            return Ok(true);
         }
         self.layout.lift(object, false);
         let before = self.layout.put(object, disc.centre);
@@ -307,25 +333,31 @@ impl Arranger<'_, '_> {
         free
     }
 
-    fn rest_can_be_lifted(&mut self, rest: &[ObjectIndex]) -> bool {
-        let mut standing = rest.to_vec();
+    fn rest_can_be_lifted(&mut self, rest: &[ObjectIndex]) -> Result<bool, Stop> {
         let mut lifted = Vec::new();
-        loop {
-            let before = standing.len();
-            standing.retain(|&object| {
-                let free = self.layout.grasp(object).is_some();
-                if free {
-                    self.layout.lift(object, true);
-                    lifted.push(object);
-                }
-                !free
-            });
-            if standing.is_empty() || standing.len() == before {
-                break;
-            }
-        }
-        let free = standing.is_empty() && self.layout.grasp(self.task.scene.target()).is_some();
+        let free = self.lift_all(rest, &mut lifted);
         lifted.into_iter().for_each(|object| self.layout.lift(object, false));
         free
+    }
+
+    /// Lift whatever can be lifted. True if that is all of them, and the target can be grasped then.
+    fn lift_all(&mut self, rest: &[ObjectIndex], lifted: &mut Vec<ObjectIndex>) -> Result<bool, Stop> {
+        let mut standing = rest.to_vec();
+        while !standing.is_empty() {
+            let mut stuck = Vec::new();
+            for &object in &standing {
+                if self.grasp(object)?.is_some() {
+                    self.layout.lift(object, true);
+                    lifted.push(object);
+                } else {
+                    stuck.push(object);
+                }
+            }
+            if stuck.len() == standing.len() {
+                return Ok(false);
+            }
+            standing = stuck;
+        }
+        Ok(self.grasp(self.task.scene.target())?.is_some())
     }
 }

@@ -10,9 +10,10 @@ use std::collections::BinaryHeap;
 use nalgebra::Point2;
 use smallvec::SmallVec;
 
-use super::curves::{Circle, Line};
+use super::borders::Border;
 use super::layout::Layout;
 use super::{INSIDE, Objective};
+use crate::budget::{Budget, Interrupted};
 use crate::scene::{Disc, ObjectIndex, distance};
 
 /// What a place must keep, and what makes it good.
@@ -32,11 +33,12 @@ pub(super) struct Candidates {
     radius: f64,
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
-    lines: Vec<Line>,
-    corners: Vec<Circle>,
+    table: Border,
     /// How far apart two obstacles' circles can still meet, m.
     span: f64,
+    /// The obstacles, and the keep-outs, whose meetings with all others are among the places already.
     expanded: Vec<bool>,
+    expanded_areas: Vec<bool>,
     heap: BinaryHeap<Entry>,
 }
 
@@ -44,7 +46,7 @@ pub(super) struct Candidates {
 enum Kind {
     Place,
     Obstacle(ObjectIndex),
-    Corner(usize),
+    KeepOut(usize),
 }
 
 /// Higher scores first; among equals the smaller coordinates, so that the order is one and the same everywhere.
@@ -79,7 +81,8 @@ impl Candidates {
     /// Places for an object that is lifted off `layout`.
     pub(super) fn new(layout: &Layout<'_>, wish: Wish) -> Self {
         let mut candidates = Self::empty(layout, wish);
-        candidates.add_straight_borders(layout);
+        candidates.add_table(layout);
+        candidates.add_keep_outs(layout);
         candidates.add_obstacles(layout);
         candidates
     }
@@ -95,10 +98,10 @@ impl Candidates {
             wish,
             radius: own.radius,
             origin,
-            lines: Vec::new(),
-            corners: Vec::new(),
+            table: Border::default(),
             span: 0.0,
             expanded: vec![false; scene.objects().len()],
+            expanded_areas: vec![false; scene.table().keep_out().len()],
             heap: BinaryHeap::new(),
         }
     }
@@ -119,15 +122,33 @@ impl Candidates {
     }
 
     /// The next best place. Whether it is free is for the caller to see.
-    pub(super) fn next(&mut self, layout: &Layout<'_>) -> Option<Point2<f64>> {
-        loop {
-            let entry = self.heap.pop()?;
+    ///
+    /// # Errors
+    /// [`Interrupted`] when the budget ends: many borders may be expanded before the next place comes up.
+    pub(super) fn next(
+        &mut self,
+        layout: &Layout<'_>,
+        budget: &Budget<'_>,
+    ) -> Result<Option<Point2<f64>>, Interrupted> {
+        while let Some(entry) = self.heap.pop() {
             match entry.kind {
-                Kind::Place => return Some(entry.at),
-                Kind::Obstacle(object) => self.expand(layout, object),
-                Kind::Corner(at) => self.expand_circle(self.corners[at]),
+                Kind::Place => return Ok(Some(entry.at)),
+                Kind::Obstacle(object) => {
+                    self.expanded[object.get()] = true;
+                    let (border, reach) = self.round_obstacle(layout, object);
+                    self.expand(layout, &border, layout.disc(object).centre, reach);
+                }
+                Kind::KeepOut(at) => {
+                    self.expanded_areas[at] = true;
+                    let area = layout.scene().table().keep_out()[at];
+                    let border = Border::round(&area, self.edge());
+                    let middle = nalgebra::center(&area.min(), &area.max());
+                    self.expand(layout, &border, middle, border.farthest(middle));
+                }
             }
+            budget.check()?;
         }
+        Ok(None)
     }
 
     /// True if the object keeps all gaps there.
@@ -154,60 +175,49 @@ impl Candidates {
         self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
     }
 
-    fn add_curve(&mut self, circles: &[Circle], kind: Kind) {
-        let best = |circle: &Circle| {
-            let apart = distance(circle.centre, self.origin);
-            match self.wish.objective {
-                Objective::FarFromTarget => apart + circle.radius,
-                Objective::ShortMoves => -(apart - circle.radius).abs(),
-            }
-        };
-        let score = circles.iter().map(best).fold(f64::NEG_INFINITY, f64::max);
-        if let Some(circle) = circles.first() {
-            self.heap.push(Entry { score, at: circle.centre, kind });
-        }
+    /// How far its centre keeps from table edge and keep-outs, m.
+    fn edge(&self) -> f64 {
+        self.radius + self.wish.edge_gap + INSIDE
     }
 
-    /// The table's inner border, and the borders round keep-outs with their rounded corners.
-    fn add_straight_borders(&mut self, layout: &Layout<'_>) {
-        let table = layout.scene().table();
-        let keep = self.radius + self.wish.edge_gap + INSIDE;
-        let (min, max) = (table.top().min(), table.top().max());
-        let mut vertical = vec![min.x + keep, max.x - keep];
-        let mut horizontal = vec![min.y + keep, max.y - keep];
-        for area in table.keep_out() {
-            let (min, max) = (area.min(), area.max());
-            vertical.extend([min.x - keep, max.x + keep]);
-            horizontal.extend([min.y - keep, max.y + keep]);
-            let corners = [min, max, Point2::new(min.x, max.y), Point2::new(max.x, min.y)];
-            self.corners.extend(corners.map(|centre| Circle { centre, radius: keep }));
-        }
-        for &x in &vertical {
-            self.add_place(Point2::new(x, self.origin.y));
-            horizontal.iter().for_each(|&y| self.add_place(Point2::new(x, y)));
-        }
-        horizontal.iter().for_each(|&y| self.add_place(Point2::new(self.origin.x, y)));
-        self.lines.extend(vertical.into_iter().map(Line::Vertical));
-        self.lines.extend(horizontal.into_iter().map(Line::Horizontal));
-        for at in 0..self.corners.len() {
-            self.add_curve(&[self.corners[at]], Kind::Corner(at));
+    fn add_table(&mut self, layout: &Layout<'_>) {
+        self.table = Border::within(&layout.scene().table().top(), self.edge());
+        let (table, origin) = (self.table.clone(), self.origin);
+        table.extremes(origin, |at| self.add_place(at));
+    }
+
+    fn add_keep_outs(&mut self, layout: &Layout<'_>) {
+        let keep = self.edge();
+        for (at, area) in layout.scene().table().keep_out().iter().enumerate() {
+            let score = match self.wish.objective {
+                Objective::FarFromTarget => Border::round(area, keep).farthest(self.origin),
+                Objective::ShortMoves => -area.outer_gap(&Disc { centre: self.origin, radius: keep }).max(0.0),
+            };
+            self.heap.push(Entry { score, at: area.min(), kind: Kind::KeepOut(at) });
         }
     }
 
     fn add_obstacles(&mut self, layout: &Layout<'_>) {
-        let scene = layout.scene();
-        for object in scene.indices().filter(|&object| !layout.is_lifted(object)) {
-            let circles = self.circles(layout, object);
-            self.span = circles.iter().map(|circle| circle.radius).fold(self.span, f64::max);
-            self.add_curve(&circles, Kind::Obstacle(object));
+        for object in layout.scene().indices().filter(|&object| !layout.is_lifted(object)) {
+            let centre = layout.disc(object).centre;
+            let apart = distance(centre, self.origin);
+            let mut score = f64::NEG_INFINITY;
+            for radius in self.radii(layout, object) {
+                self.span = self.span.max(radius);
+                score = score.max(match self.wish.objective {
+                    Objective::FarFromTarget => apart + radius,
+                    Objective::ShortMoves => -(apart - radius).abs(),
+                });
+            }
+            self.heap.push(Entry { score, at: centre, kind: Kind::Obstacle(object) });
         }
     }
 
     /// Round an obstacle: as near as the gap allows, where it no longer hinders the release, where it no longer hinders a
     /// grasp of that obstacle.
-    fn circles(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> SmallVec<[Circle; 3]> {
+    fn radii(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> SmallVec<[f64; 3]> {
         let gripper = layout.scene().gripper();
-        let Disc { centre, radius } = layout.disc(obstacle);
+        let radius = layout.disc(obstacle).radius;
         let clear = gripper.margin() + INSIDE;
         let mut radii: SmallVec<[f64; 3]> = SmallVec::from_buf([
             self.radius + radius + self.wish.gap + INSIDE,
@@ -215,32 +225,33 @@ impl Candidates {
             gripper.corner_distance(radius) + self.radius + clear,
         ]);
         radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
-        radii.into_iter().map(|radius| Circle { centre, radius }).collect()
+        radii
     }
 
-    fn expand(&mut self, layout: &Layout<'_>, object: ObjectIndex) {
-        self.expanded[object.get()] = true;
-        let circles = self.circles(layout, object);
-        let reach = circles.iter().map(|circle| circle.radius).fold(0.0, f64::max) + self.span;
-        let others: Vec<ObjectIndex> =
-            layout.near(circles[0].centre, reach).map(|(o, _)| o).filter(|o| !self.expanded[o.get()]).collect();
-        circles.iter().for_each(|&circle| self.expand_circle(circle));
-        for other in others {
-            let theirs = self.circles(layout, other);
-            for (a, b) in circles.iter().flat_map(|a| theirs.iter().map(move |b| (a, b))) {
-                a.meet(b).into_iter().flatten().for_each(|at| self.add_place(at));
+    /// The border round an obstacle, and how far it reaches.
+    fn round_obstacle(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> (Border, f64) {
+        let radii = self.radii(layout, obstacle);
+        let reach = radii.iter().copied().fold(0.0, f64::max);
+        (Border::rings(layout.disc(obstacle).centre, radii), reach)
+    }
+
+    /// Add the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
+    fn expand(&mut self, layout: &Layout<'_>, border: &Border, centre: Point2<f64>, reach: f64) {
+        let mut places: Vec<Point2<f64>> = Vec::new();
+        let mut add = |at| places.push(at);
+        border.extremes(self.origin, &mut add);
+        border.meet(&self.table, &mut add);
+        for (other, _) in layout.near(centre, reach + self.span).filter(|(other, _)| !self.expanded[other.get()]) {
+            border.meet(&self.round_obstacle(layout, other).0, &mut add);
+        }
+        let within_reach = Disc { centre, radius: reach + self.edge() };
+        for (area, _) in layout.scene().table().keep_out().iter().zip(&self.expanded_areas).filter(|(_, done)| !**done)
+        {
+            if area.outer_gap(&within_reach) <= 0.0 {
+                border.meet(&Border::round(area, self.edge()), &mut add);
             }
         }
-        for corner in self.corners.clone() {
-            circles.iter().filter_map(|circle| circle.meet(&corner)).flatten().for_each(|at| self.add_place(at));
-        }
-    }
-
-    fn expand_circle(&mut self, circle: Circle) {
-        for line in self.lines.clone() {
-            circle.meet_line(line).into_iter().flatten().for_each(|at| self.add_place(at));
-        }
-        circle.extremes(self.origin).into_iter().for_each(|at| self.add_place(at));
+        places.into_iter().for_each(|at| self.add_place(at));
     }
 }
 

@@ -11,11 +11,47 @@ pub(super) struct Circle {
     pub(super) radius: f64,
 }
 
-/// A line x = `at` or y = `at`.
+/// A stretch of a line x = `at` or y = `at`.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Line {
-    Vertical(f64),
-    Horizontal(f64),
+pub(super) struct Side {
+    pub(super) direction: Direction,
+    pub(super) at: f64,
+    /// Its ends, in the other coordinate.
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Direction {
+    Vertical,
+    Horizontal,
+}
+
+impl Side {
+    fn point(&self, along: f64) -> Point2<f64> {
+        match self.direction {
+            Direction::Vertical => Point2::new(self.at, along),
+            Direction::Horizontal => Point2::new(along, self.at),
+        }
+    }
+
+    fn holds(&self, along: f64) -> bool {
+        (self.from..=self.to).contains(&along)
+    }
+
+    /// Where it crosses a side of the other direction.
+    pub(super) fn meet(&self, other: &Self) -> Option<Point2<f64>> {
+        (self.direction != other.direction && self.holds(other.at) && other.holds(self.at))
+            .then(|| self.point(other.at))
+    }
+
+    /// Its ends, and the point in between that is nearest to `point` if that is none of them.
+    pub(super) fn extremes(&self, point: Point2<f64>) -> impl Iterator<Item = Point2<f64>> + use<> {
+        let along = if self.direction == Direction::Vertical { point.y } else { point.x };
+        let foot = self.holds(along).then(|| self.point(along));
+        let ends = (self.from <= self.to).then(|| [self.point(self.from), self.point(self.to)]);
+        ends.into_iter().flatten().chain(foot)
+    }
 }
 
 impl Circle {
@@ -33,19 +69,17 @@ impl Circle {
         Some([foot + aside, foot - aside])
     }
 
-    /// Where the circle meets a line.
-    pub(super) fn meet_line(&self, line: Line) -> Option<[Point2<f64>; 2]> {
+    /// Where the circle meets a side.
+    pub(super) fn meet_side(&self, side: &Side) -> impl Iterator<Item = Point2<f64>> + use<> {
         let Point2 { coords: c } = self.centre;
-        let offset = match line {
-            Line::Vertical(at) => at - c.x,
-            Line::Horizontal(at) => at - c.y,
+        let (across, along) = match side.direction {
+            Direction::Vertical => (side.at - c.x, c.y),
+            Direction::Horizontal => (side.at - c.y, c.x),
         };
-        let square = self.radius * self.radius - offset * offset;
-        let half = if square < 0.0 { return None } else { square.sqrt() };
-        Some(match line {
-            Line::Vertical(at) => [Point2::new(at, c.y - half), Point2::new(at, c.y + half)],
-            Line::Horizontal(at) => [Point2::new(c.x - half, at), Point2::new(c.x + half, at)],
-        })
+        let square = self.radius * self.radius - across * across;
+        let points = (square >= 0.0).then(|| [along - square.sqrt(), along + square.sqrt()]);
+        let side = *side;
+        points.into_iter().flatten().filter(move |&along| side.holds(along)).map(move |along| side.point(along))
     }
 
     /// The points of the circle nearest to and farthest from `point`.
@@ -67,7 +101,19 @@ mod tests {
         assert_eq!(a.meet(&b), Some([Point2::new(3.0, 4.0), Point2::new(3.0, -4.0)]));
         assert_eq!(a.meet(&Circle { centre: Point2::new(11.0, 0.0), radius: 5.0 }), None);
         assert_eq!(a.meet(&Circle { centre: Point2::new(1.0, 0.0), radius: 1.0 }), None);
-        assert_eq!(a.meet_line(Line::Vertical(3.0)), Some([Point2::new(3.0, -4.0), Point2::new(3.0, 4.0)]));
-        assert_eq!(a.meet_line(Line::Horizontal(6.0)), None);
+    }
+
+    #[test]
+    fn sides_meet_only_within_their_ends() {
+        let circle = Circle { centre: Point2::new(0.0, 0.0), radius: 5.0 };
+        let side = |direction, at, from, to| Side { direction, at, from, to };
+        let meet = |side: Side| circle.meet_side(&side).collect::<Vec<_>>();
+        assert_eq!(meet(side(Direction::Vertical, 3.0, -9.0, 9.0)), [Point2::new(3.0, -4.0), Point2::new(3.0, 4.0)]);
+        assert_eq!(meet(side(Direction::Vertical, 3.0, 0.0, 9.0)), [Point2::new(3.0, 4.0)]);
+        assert_eq!(meet(side(Direction::Horizontal, 6.0, -9.0, 9.0)), []);
+        let across = side(Direction::Horizontal, 1.0, -9.0, 9.0);
+        assert_eq!(across.meet(&side(Direction::Vertical, 2.0, 0.0, 3.0)), Some(Point2::new(2.0, 1.0)));
+        assert_eq!(across.meet(&side(Direction::Vertical, 2.0, 2.0, 3.0)), None);
+        assert_eq!(across.meet(&across), None);
     }
 }

@@ -4,6 +4,7 @@
 //! every grasp still to come a free yaw. Candidates come from the continuum: where border curves of the free space meet.
 
 mod arrange;
+mod borders;
 mod candidates;
 mod curves;
 mod layout;
@@ -22,6 +23,17 @@ pub enum Objective {
     FarFromTarget,
     /// As near to its old place as possible.
     ShortMoves,
+}
+
+impl Objective {
+    /// The one of the two that this is not.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::FarFromTarget => Self::ShortMoves,
+            Self::ShortMoves => Self::FarFromTarget,
+        }
+    }
 }
 
 /// One pick-and-place.

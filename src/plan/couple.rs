@@ -6,10 +6,12 @@ use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Alternatives, Derivation};
 
-/// The places that may be tried for one answer: a fraction of a second, reached only where space is very short.
-const MAX_PLACES: u32 = 400_000;
-/// The places that may be tried for one set, so that others get their turn.
-const MAX_PLACES_PER_SET: u32 = 50_000;
+/// The effort for one answer: half a second, reached only where space is very short.
+const MAX_EFFORT: u32 = 1_000_000;
+/// The effort for one set, so that others get their turn.
+const MAX_EFFORT_PER_SET: u32 = 100_000;
+/// What each relocation adds to that: a long plan has many places to find, each among those found before.
+const EFFORT_PER_STEP: u32 = 5_000;
 /// How many more relocations than the least set has are tried.
 const MAX_EXTRA: usize = 3;
 /// How many sets are tried.
@@ -36,7 +38,7 @@ pub(super) fn arrange_least(
     let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
     let mut tried: Vec<Vec<ObjectIndex>> = Vec::new();
     let mut next = alternatives.next(budget)?;
-    let mut effort = Effort::new(MAX_PLACES);
+    let mut effort = Effort::new(MAX_EFFORT);
     for cost in cheapest..=cheapest + MAX_EXTRA {
         let smaller = tried.len();
         while tried.len() < MAX_SETS
@@ -60,19 +62,26 @@ pub(super) fn arrange_least(
     Ok(None)
 }
 
-/// One set with as many extra moves as the cost allows.
-pub(super) fn attempt(
+/// One set with as many extra moves as the cost allows. Places that are best by the objective may all lead nowhere where
+/// those that are best by another don't: a worse place is better than one more relocation.
+fn attempt(
     question: &Question<'_>,
     set: &[ObjectIndex],
     cost: usize,
     effort: &mut Effort,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    let task = Task { scene: question.scene, set, extra: cost - set.len(), objective: question.objective };
-    let mut part = effort.split(MAX_PLACES_PER_SET);
-    let found = arrange(&task, &mut part, budget);
-    effort.join(part);
-    found
+    let steps = u32::try_from(cost).unwrap_or(u32::MAX);
+    for objective in [question.objective, question.objective.other()] {
+        let task = Task { scene: question.scene, set, extra: cost - set.len(), objective };
+        let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(EFFORT_PER_STEP.saturating_mul(steps)));
+        let found = arrange(&task, &mut part, budget)?;
+        effort.join(part);
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    Ok(None)
 }
 
 /// One set, without alternatives: for a search that ran out of time with a derivation in hand.
@@ -84,5 +93,5 @@ pub(super) fn arrange_one(
     set: &[ObjectIndex],
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    attempt(question, set, set.len(), &mut Effort::new(MAX_PLACES), budget)
+    attempt(question, set, set.len(), &mut Effort::new(MAX_EFFORT), budget)
 }

@@ -73,7 +73,7 @@ impl Planner<'_> {
         // The relevant part of the base would show a lock, but not the greatest.
         let found = complete(self.scene, &budget).and_then(|base| {
             let closure = close(&base, |_| false, &budget)?;
-            Ok(greatest_lock(self.scene, &base, &closure, &budget))
+            Ok(greatest_lock(self.scene, &base, &closure, &budget)?)
         });
         self.statistics.knowledge += self.since(started);
         match found {
@@ -111,9 +111,14 @@ pub(super) fn graspable_now(scene: &Scene) -> Verdict {
 }
 
 /// Why the target, which does not follow, does not: from the complete base and its closure.
-pub(super) fn greatest_lock(scene: &Scene, base: &KnowledgeBase, closure: &Closure, budget: &Budget<'_>) -> Deadlock {
-    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget);
-    blocked.extend(fixed_blockers(scene, &blocked));
+pub(super) fn greatest_lock(
+    scene: &Scene,
+    base: &KnowledgeBase,
+    closure: &Closure,
+    budget: &Budget<'_>,
+) -> Result<Deadlock, Interrupted> {
+    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget)?;
+    blocked.extend(fixed_blockers(scene, &blocked, budget)?);
     blocked.sort_unstable();
-    Deadlock { blocked, core }
+    Ok(Deadlock { blocked, core })
 }

@@ -103,7 +103,8 @@ impl Surveyor<'_> {
             Some(verdict) => verdict,
             None => {
                 let lock = greatest_lock(scene, self.base, self.closure, budget);
-                match confirm(scene, Verdict::Deadlock(lock), budget)? {
+                let verdict = lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), Verdict::Deadlock);
+                match confirm(scene, verdict, budget)? {
                     Verdict::Deadlock(_) => SurveyVerdict::Deadlock,
                     _ => SurveyVerdict::TimedOut,
                 }

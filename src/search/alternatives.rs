@@ -6,7 +6,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::least::{Derivation, Outcome, Restriction, least};
+use super::least::least;
+use super::outcome::{Derivation, Outcome, Restriction};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, close};
 use crate::scene::ObjectIndex;

@@ -5,11 +5,14 @@ use std::collections::BinaryHeap;
 
 use super::chain::Chain;
 use super::problem::{Node, Problem};
-use crate::budget::Budget;
+use crate::budget::{Budget, Interrupted};
 
 /// A derivation by the additive estimate: an object costs one more than the members of its cheapest option together.
 /// Dijkstra's algorithm in Knuth's generalisation, then the support of the target.
-pub(super) fn greedy(problem: &Problem) -> Vec<Node> {
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(super) fn greedy(problem: &Problem, budget: &Budget<'_>) -> Result<Vec<Node>, Interrupted> {
     let nodes = problem.movable() + 1;
     let mut support: Vec<Option<u32>> = vec![None; nodes];
     let mut settled = vec![false; nodes];
@@ -24,6 +27,7 @@ pub(super) fn greedy(problem: &Problem) -> Vec<Node> {
         if core::mem::replace(&mut settled[node as usize], true) {
             continue;
         }
+        budget.check()?;
         support[node as usize] = Some(rule);
         if node == problem.target() {
             break;
@@ -45,7 +49,7 @@ pub(super) fn greedy(problem: &Problem) -> Vec<Node> {
             }
         }
     }
-    (0..problem.target()).filter(|&node| chosen[node as usize]).collect()
+    Ok((0..problem.target()).filter(|&node| chosen[node as usize]).collect())
 }
 
 /// An inclusion-minimal part of `set` that still derives the target, in an order in which its members can be moved;

@@ -1,54 +1,17 @@
 //! The main loop: hit, chain, learn.
 
 use super::chain::Chain;
+use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
 use super::problem::{Node, Problem};
+use super::reduction::reduce;
 use super::{hitting_set, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
-/// Objects in an order in which each can be moved, after which the target can be grasped. The target is not among them.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Derivation {
-    /// In order.
-    pub order: Vec<ObjectIndex>,
-}
-
-/// What the search knows: a bound with its proof, and the best derivation so far.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct LeastSet {
-    /// The shortest derivation known.
-    pub derivation: Derivation,
-    /// No derivation is shorter.
-    pub bound: usize,
-    /// Sets of which every derivation holds at least one member, sorted each; a least set that meets all of them has
-    /// `bound` members. (Not so for a restricted question: there they hold only under the restriction.)
-    pub landmarks: Vec<Vec<ObjectIndex>>,
-}
-
-/// How the search ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
-    /// Bound and derivation meet.
-    Least(LeastSet),
-    /// The target can't be derived.
-    Underivable,
-    /// The budget ended first; what is known so far, `None` if not even a derivation.
-    Interrupted(Option<LeastSet>),
-}
-
-/// A narrower question, to enumerate sets in order of their size.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Restriction {
-    /// Objects that must not be moved.
-    pub held: Vec<ObjectIndex>,
-    /// Objects that must be moved.
-    pub required: Vec<ObjectIndex>,
-}
-
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
-    let problem = match Problem::new(base, target, restriction, budget) {
+    let problem = match reduce(base, target, restriction, budget) {
         Ok(Some(problem)) => problem,
         Ok(None) => return Outcome::Underivable,
         Err(Interrupted) => return Outcome::Interrupted(None),
@@ -59,7 +22,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
         let Some(node) = problem.node(object) else { return Outcome::Underivable };
         required.push(node);
     }
-    let mut search = Search::new(&problem, required, budget);
+    let Ok(mut search) = Search::new(&problem, required, budget) else { return Outcome::Interrupted(None) };
     match search.run(budget) {
         Ok(()) => Outcome::Least(search.known()),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known())),
@@ -77,12 +40,12 @@ struct Search<'p> {
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Self {
+    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Result<Self, Interrupted> {
         let landmarks = required.iter().map(|&node| vec![node]).collect();
         let mut search =
             Self { problem, chain: Chain::new(problem), landmarks, bound: required.len(), required, best: Vec::new() };
-        search.best = search.minimal(&incumbent::greedy(problem), budget);
-        search
+        search.best = search.minimal(&incumbent::greedy(problem, budget)?, budget);
+        Ok(search)
     }
 
     fn run(&mut self, budget: &Budget<'_>) -> Result<(), Interrupted> {

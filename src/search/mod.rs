@@ -11,10 +11,13 @@ mod hitting_set;
 mod incumbent;
 mod landmark;
 mod least;
+mod outcome;
 mod problem;
 mod proof;
+mod reduction;
 #[cfg(test)]
 mod tests;
 
 pub use alternatives::Alternatives;
-pub use least::{Derivation, LeastSet, Outcome, Restriction, least};
+pub use least::least;
+pub use outcome::{Derivation, LeastSet, Outcome, Restriction};

@@ -1,17 +1,13 @@
-//! The part of a knowledge base that one question is about, in dense numbers.
+//! The rules that one question is about, in dense numbers.
 
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
-use super::chain::Chain;
-use super::least::Restriction;
-
 /// An object of the problem; the target is numbered after all others.
 pub(super) type Node = u32;
 
-/// Rules over nodes, without those that can't be part of any plan: with the target, a held or an underivable object in
-/// their body, or of objects on which the target does not depend.
+/// Rules over nodes.
 #[derive(Debug)]
 pub(super) struct Problem {
     /// Node to object, the target last.
@@ -52,54 +48,18 @@ impl Lists {
 }
 
 impl Problem {
-    /// `Ok(None)` if the target can't be derived.
-    pub(super) fn new(
+    /// The options of `objects` (the target last) that are `usable`, which name no other object.
+    pub(super) fn over(
         base: &KnowledgeBase,
-        target: ObjectIndex,
-        restriction: &Restriction,
-        budget: &Budget<'_>,
-    ) -> Result<Option<Self>, Interrupted> {
-        let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
-        let all = Self::reached(base, target, |option| !option.iter().any(held), budget)?;
-        let mut chain = Chain::new(&all);
-        (0..all.target()).for_each(|node| chain.allow(node));
-        if !chain.reaches_target() {
-            return Ok(None);
-        }
-        let mut derivable = vec![false; base.len()];
-        chain.moved().for_each(|node| derivable[all.object(node).get()] = true);
-        Self::reached(base, target, |option| option.iter().all(|member| derivable[member.get()]), budget).map(Some)
-    }
-
-    /// What the target depends on through options that are `usable`: breadth first backwards from the target, numbered
-    /// in reverse, so that whatever is near the target comes late.
-    fn reached(
-        base: &KnowledgeBase,
-        target: ObjectIndex,
+        objects: Vec<ObjectIndex>,
         usable: impl Fn(&[ObjectIndex]) -> bool,
         budget: &Budget<'_>,
     ) -> Result<Self, Interrupted> {
-        let mut seen = vec![false; base.len()];
-        let mut objects = vec![target];
-        let mut at = 0;
-        while let Some(&object) = objects.get(at) {
-            at += 1;
-            budget.check()?;
-            for &member in base.options(object).filter(|option| usable(option)).flatten() {
-                if !core::mem::replace(&mut seen[member.get()], true) {
-                    objects.push(member);
-                }
-            }
-        }
-        objects.reverse();
-        Ok(Self::over(base, objects, usable))
-    }
-
-    fn over(base: &KnowledgeBase, objects: Vec<ObjectIndex>, usable: impl Fn(&[ObjectIndex]) -> bool) -> Self {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
+            budget.check()?;
             for option in base.options(object).filter(|option| usable(option)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
@@ -108,8 +68,10 @@ impl Problem {
             }
         }
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
+        budget.check()?;
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        Self { objects, heads, bodies, condition_of }
+        budget.check()?;
+        Ok(Self { objects, heads, bodies, condition_of })
     }
 
     /// The number of nodes besides the target.

@@ -1,0 +1,68 @@
+//! What bounds the free space: the table's inner border, and a border round every obstacle and every keep-out.
+
+use nalgebra::Point2;
+use smallvec::SmallVec;
+
+use super::curves::{Circle, Direction, Side};
+use crate::scene::{Rectangle, distance};
+
+/// The curves of one border.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Border {
+    pub(super) circles: SmallVec<[Circle; 4]>,
+    pub(super) sides: SmallVec<[Side; 4]>,
+}
+
+impl Border {
+    /// Round an obstacle, at several distances.
+    pub(super) fn rings(centre: Point2<f64>, radii: impl IntoIterator<Item = f64>) -> Self {
+        let circles = radii.into_iter().map(|radius| Circle { centre, radius }).collect();
+        Self { circles, sides: SmallVec::new() }
+    }
+
+    /// Within a rectangle, `keep` from its border. Nothing where it is too small.
+    pub(super) fn within(area: &Rectangle, keep: f64) -> Self {
+        let inset = nalgebra::Vector2::new(keep, keep);
+        Self { circles: SmallVec::new(), sides: sides(area.min() + inset, area.max() - inset, 0.0) }
+    }
+
+    /// Round a rectangle, `keep` from it: its sides moved outwards, with rounded corners.
+    pub(super) fn round(area: &Rectangle, keep: f64) -> Self {
+        let (min, max) = (area.min(), area.max());
+        let corners = [min, max, Point2::new(min.x, max.y), Point2::new(max.x, min.y)];
+        let circles = corners.into_iter().map(|centre| Circle { centre, radius: keep }).collect();
+        Self { circles, sides: sides(min, max, keep) }
+    }
+
+    /// Where two borders meet.
+    pub(super) fn meet(&self, other: &Self, mut add: impl FnMut(Point2<f64>)) {
+        for circle in &self.circles {
+            other.circles.iter().filter_map(|theirs| circle.meet(theirs)).flatten().for_each(&mut add);
+            other.sides.iter().flat_map(|side| circle.meet_side(side)).for_each(&mut add);
+        }
+        for side in &self.sides {
+            other.circles.iter().flat_map(|theirs| theirs.meet_side(side)).for_each(&mut add);
+            other.sides.iter().filter_map(|theirs| side.meet(theirs)).for_each(&mut add);
+        }
+    }
+
+    /// The points of its curves nearest to and farthest from `point`.
+    pub(super) fn extremes(&self, point: Point2<f64>, mut add: impl FnMut(Point2<f64>)) {
+        self.circles.iter().flat_map(|circle| circle.extremes(point)).for_each(&mut add);
+        self.sides.iter().flat_map(|side| side.extremes(point)).for_each(add);
+    }
+
+    /// No point of the border is farther from `point` than this, m.
+    pub(super) fn farthest(&self, point: Point2<f64>) -> f64 {
+        // A side's ends lie on circles, where there are both.
+        self.circles.iter().map(|circle| distance(circle.centre, point) + circle.radius).fold(0.0, f64::max)
+    }
+}
+
+/// The sides of the rectangle, moved outwards by `keep`.
+fn sides(min: Point2<f64>, max: Point2<f64>, keep: f64) -> SmallVec<[Side; 4]> {
+    let vertical = |at| Side { direction: Direction::Vertical, at, from: min.y, to: max.y };
+    let horizontal = |at| Side { direction: Direction::Horizontal, at, from: min.x, to: max.x };
+    let (left, right) = (vertical(min.x - keep), vertical(max.x + keep));
+    SmallVec::from_buf([left, right, horizontal(min.y - keep), horizontal(max.y + keep)])
+}

@@ -1,0 +1,89 @@
+//! What the documents show is what the commands print.
+
+use std::path::Path;
+
+use serde_json::Value;
+use singulate::config::{Config, SETTINGS};
+
+use crate::{answered, run};
+
+const README: &str = include_str!("../../README.md");
+const EXAMPLE: &str = "src/cli/example.json";
+
+fn example() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(EXAMPLE).to_str().unwrap().to_owned()
+}
+
+/// The fenced block of this kind.
+fn block(kind: &str) -> &'static str {
+    let (_, rest) = README.split_once(&format!("```{kind}\n")).unwrap();
+    rest.split_once("```").unwrap().0
+}
+
+fn without_statistics(text: &str) -> Value {
+    let mut value: Value = serde_json::from_str(text).unwrap();
+    value.as_object_mut().unwrap().remove("statistics").unwrap();
+    value
+}
+
+#[test]
+fn the_picture_is_what_plan_draws() {
+    let drawn = answered(run(&["plan", &example(), "--format", "svg"]));
+    let told = "redraw it: cargo run -- plan src/cli/example.json --format svg > docs/example.svg";
+    assert!(drawn == include_str!("../../docs/example.svg"), "{told}");
+}
+
+#[test]
+fn the_scene_is_the_example_and_the_answer_is_what_plan_says() {
+    let shown: Value = serde_json::from_str(block("json scene")).unwrap();
+    assert_eq!(shown, serde_json::from_str::<Value>(&std::fs::read_to_string(example()).unwrap()).unwrap());
+    let answer = answered(run(&["plan", &example()]));
+    assert_eq!(without_statistics(block("json answer")), without_statistics(&answer));
+}
+
+#[test]
+fn the_text_is_what_plan_says_but_for_the_times() {
+    let text = answered(run(&["plan", &example(), "--format", "text"]));
+    let (paragraphs, times) = text.trim_end().rsplit_once("\n\n").unwrap();
+    assert!(times.contains("ms in all"), "{times}");
+    assert_eq!(block("text plan").trim_end(), paragraphs);
+}
+
+#[test]
+fn every_setting_is_listed_with_its_default() {
+    for setting in &SETTINGS {
+        let default = match setting.name {
+            "threads" => "one per core".to_owned(),
+            _ => format!("`{}`", (setting.get)(&Config::default())),
+        };
+        let (flag, variable, key) = (setting.flag(), setting.variable(), setting.name);
+        let row = format!("| `--{flag}` | `{variable}` | `{key}` | {default} | ");
+        assert!(README.contains(&row), "no row '{row}'");
+    }
+}
+
+#[test]
+fn every_path_and_every_problem_is_listed() {
+    let document: Value = serde_json::from_str(include_str!("../../openapi/openapi.json")).unwrap();
+    for (path, operations) in document["paths"].as_object().unwrap() {
+        for method in operations.as_object().unwrap().keys() {
+            assert!(README.contains(&format!("| `{} {path}` |", method.to_uppercase())), "{method} {path}");
+        }
+    }
+    let kinds = document["components"]["schemas"]["ProblemKind"]["enum"].as_array().unwrap();
+    assert!(kinds.len() > 10);
+    for kind in kinds {
+        let name = kind.as_str().unwrap().rsplit(':').next().unwrap();
+        assert!(README.contains(&format!(" | `{name}` | ")), "{name}");
+    }
+}
+
+#[test]
+fn every_file_that_is_linked_is_there() {
+    for page in [README, include_str!("../../ARCHITECTURE.md"), include_str!("../../CHANGELOG.md")] {
+        for link in page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()) {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(link);
+            assert!(link.starts_with("https://") || path.exists(), "{link}");
+        }
+    }
+}
