@@ -3,15 +3,16 @@
 //! Fails where one takes more than 100 MB. Linux only: reads the peak from `/proc`.
 
 mod cases;
+#[path = "cases/hard.rs"]
+mod hard;
 
 use std::env;
 use std::fs;
 use std::process::{Command, ExitCode};
 
 use singulate::budget::Budget;
-use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate::plan::{PlanError, Verdict, plan};
-use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate::scene::{ObjectDraft, SceneDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 
 const MAX_PEAK_KB: u64 = 100_000;
@@ -20,11 +21,11 @@ type Case = (&'static str, fn() -> SceneDraft);
 const CASES: [Case; 8] = [
     ("10,000 dishes at 45 %", || cases::equal_density(10_000, 0)),
     ("10,000 dishes at 45 %, the deepest target", || deepest(cases::equal_density(10_000, 0))),
-    ("a pressed cluster of 1,000", || pressed(1000, 0)),
-    ("10,000 crumbs, a clearance of 5 mm", || crumbs(2.0, 0.005)),
-    ("10,000 crumbs, a clearance of 6 mm", || crumbs(2.0, 0.006)),
-    ("10,000 crumbs, a clearance of 7 mm", || crumbs(2.0, 0.007)),
-    ("10,000 crumbs, a clearance of 16.5 mm", || crumbs(4.0, 0.0165)),
+    ("a pressed cluster of 1,000", || hard::pressed(1000, 0)),
+    ("10,000 crumbs, a clearance of 5 mm", || hard::crumbs(2.0, 0.005)),
+    ("10,000 crumbs, a clearance of 6 mm", || hard::crumbs(2.0, 0.006)),
+    ("10,000 crumbs, a clearance of 7 mm", || hard::crumbs(2.0, 0.007)),
+    ("10,000 crumbs, a clearance of 16.5 mm", || hard::crumbs(4.0, 0.0165)),
     ("a plate among crumbs", plate_among_crumbs),
 ];
 
@@ -108,47 +109,9 @@ fn json(draft: &SceneDraft) -> String {
     )
 }
 
-/// `objects` dishes of two sizes in one pressed cluster, for a gripper with four slim fingers.
-fn pressed(objects: usize, seed: u64) -> SceneDraft {
-    let side = (cases::count(objects) * 0.05 * 0.05 * core::f64::consts::PI / 0.3).sqrt();
-    let gripper = GripperDraft { fingers: Some(4.0), finger_width: Some(0.01), ..Recipe::default().gripper };
-    let recipe = Recipe {
-        objects,
-        table: (side, side),
-        radius: (0.04, 0.06),
-        gripper,
-        arrangement: Arrangement::Pressed,
-        pressed_gap: 0.015,
-        ..Recipe::default()
-    };
-    generate(&recipe, seed).expect("fits")
-}
-
-/// 10,000 crumbs, all but touching. With a clearance of 16.5 mm a grasp has as many in reach as the limit admits.
-fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
-    let pitch = 0.0022;
-    let place = |n: u32, shift: u32| 0.01 + pitch * f64::from(n) + 1e-5 * f64::from(shift % 11);
-    let crumb = |(i, j): (u32, u32)| ObjectDraft {
-        id: Some(format!("c{i}-{j}")),
-        x: Some(place(i, 7 * i + 13 * j)),
-        y: Some(place(j, 5 * i + 3 * j)),
-        radius: Some(0.001),
-        fixed: false,
-    };
-    let objects = (0..100).flat_map(|i| (0..100).map(move |j| (i, j))).map(crumb).collect();
-    let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(0.4), y_max: Some(0.4) };
-    let gripper = GripperDraft {
-        fingers: Some(fingers),
-        finger_width: Some(0.0002),
-        clearance: Some(clearance),
-        ..Recipe::default().gripper
-    };
-    SceneDraft { table: TableDraft { top, keep_out: Vec::new() }, gripper, objects, target: Some("c50-50".into()) }
-}
-
 /// One large plate among some 7,000 crumbs.
 fn plate_among_crumbs() -> SceneDraft {
-    let mut draft = crumbs(3.0, 0.0165);
+    let mut draft = hard::crumbs(3.0, 0.0165);
     let beside = |crumb: &ObjectDraft| {
         let (x, y) = (crumb.x.unwrap_or_default() - 0.12, crumb.y.unwrap_or_default() - 0.12);
         (x * x + y * y).sqrt() > 0.0765

@@ -1,30 +1,23 @@
 //! What the handlers share: the settings, the planning pool, and the way from a request to bytes that never stalls the
 //! threads that serve connections.
 
-use core::time::Duration;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
-use tokio::time::timeout;
 
+use super::log;
 use super::problem::{internal, refused};
+use super::reading::{Known, Read, Reading};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
-use crate::jobs::{Outcome, Pool, Refused};
+use crate::jobs::{Outcome, Pool};
 use crate::plan::check::{self, Report};
 use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
 use crate::scene::Scene;
-use crate::wire::{PlanRequest, Problem, RequestLimits};
-
-/// Bodies up to this many bytes are read where they arrive: about a millisecond.
-const SMALL_BODY: usize = 64 * 1024;
-
-/// How long a large body may wait for its turn to be read.
-const READING_PATIENCE: Duration = Duration::from_millis(500);
+use crate::wire::{PlanRequest, Problem};
 
 /// The computations that the service offers. The default is the planner; a test may stand in another.
 #[derive(Clone, Copy)]
@@ -48,7 +41,6 @@ pub struct App {
     pub(super) settings: ServerSettings,
     pub(super) engine: Engine,
     pub(super) pool: Pool,
-    large_bodies: Semaphore,
     draining: AtomicBool,
 }
 
@@ -62,8 +54,7 @@ impl App {
     /// If the system gives no thread.
     pub fn new(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
         let pool = Pool::new(settings.threads, settings.queue)?;
-        let large_bodies = Semaphore::new(settings.threads.max(1));
-        Ok(Self { settings, engine, pool, large_bodies, draining: AtomicBool::new(false) })
+        Ok(Self { settings, engine, pool, draining: AtomicBool::new(false) })
     }
 
     /// From now on the service says that it is not ready, though it still answers what reaches it.
@@ -76,39 +67,25 @@ impl App {
         !self.draining.load(Ordering::Relaxed) && self.pool.ready()
     }
 
-    /// Read a body, a large one away from the threads that serve connections.
-    pub(super) async fn parse<T: Send + 'static>(
-        &self,
-        body: Vec<u8>,
-        read: fn(&[u8], &RequestLimits) -> Result<T, Problem>,
-    ) -> Result<T, Problem> {
-        let limits = self.settings.limits;
-        if body.len() <= SMALL_BODY {
-            return read(&body, &limits);
-        }
-        let Ok(permit) = timeout(READING_PATIENCE, self.large_bodies.acquire()).await else {
-            return Err(refused(Refused::Full));
-        };
-        let result = spawn_blocking(move || read(&body, &limits)).await;
-        drop(permit);
-        result.unwrap_or_else(|_| Err(internal()))
-    }
-
-    /// Run `work` on the planning pool; where the time limit comes first, `too_late` says what is left to say. The limit
-    /// counts from `arrival`.
-    pub(super) async fn compute<R: AsRef<PlanRequest> + Send + Sync + 'static>(
+    /// Read the body and run `work` on the planning pool; where the time limit comes first, `too_late` says what is left
+    /// to say. The limit counts from `arrival`.
+    pub(super) async fn answer<R: AsRef<PlanRequest> + Send + Sync + 'static>(
         &self,
         arrival: Instant,
-        request: Arc<R>,
+        (body, read): (Vec<u8>, Read<R>),
         work: impl FnOnce(&R, &Budget<'_>) -> Served + Send + 'static,
-        too_late: impl FnOnce(&R) -> Served + Send + 'static,
+        too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
-        let time_limit = (*request).as_ref().time_limit;
-        let own = Arc::clone(&request);
-        let pending = self.pool.submit(arrival, time_limit, move |budget| work(&own, budget)).map_err(refused)?;
+        let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
+        log::note_scene(reading.glance().scene_id.as_deref());
+        let own = Arc::clone(&reading);
+        let job = move |budget: &Budget<'_>| work(own.request()?, budget);
+        let pending = self.pool.submit(arrival, reading.glance().time_limit, job).map_err(refused)?;
         match pending.outcome().await {
             Outcome::Done(served) => served,
-            Outcome::TimedOut => spawn_blocking(move || too_late(&request)).await.unwrap_or_else(|_| Err(internal())),
+            Outcome::TimedOut => {
+                spawn_blocking(move || too_late(reading.known())).await.unwrap_or_else(|_| Err(internal()))
+            }
             Outcome::Panicked => Err(internal()),
         }
     }

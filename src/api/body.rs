@@ -17,31 +17,49 @@ use crate::wire::{Problem, ProblemKind};
 /// A problem if the type is another one, or the body is too large, too slow or incomplete.
 pub(super) async fn receive(request: Request<Body>, settings: &ServerSettings) -> Result<Vec<u8>, Problem> {
     check_type(request.headers())?;
-    let reading = read(request.into_body(), settings.max_body_bytes);
-    timeout(settings.body_timeout, reading).await.unwrap_or_else(|_| {
-        let seconds = settings.body_timeout.as_secs_f64();
-        Err(Problem::new(ProblemKind::BodyTimeout, format!("the body was not complete after {seconds} s")))
-    })
-}
-
-async fn read(mut body: Body, max: usize) -> Result<Vec<u8>, Problem> {
-    let mut received = Vec::new();
-    let mut discarded = 0;
-    while let Some(piece) = next(&mut body).await? {
-        if received.len() + piece.len() <= max && discarded == 0 {
-            received.extend_from_slice(&piece);
-        } else {
-            // Many clients read the answer only once they have sent everything; so much patience they get.
-            discarded += piece.len();
-            if discarded > max {
-                break;
-            }
+    let max = settings.max_body_bytes;
+    // Who asks before sending is told at once: the system's 100 goes out only when the body is waited for.
+    if request.headers().contains_key(header::EXPECT) && request.body().size_hint().lower() > max as u64 {
+        return Err(too_large(max));
+    }
+    let mut intake = Intake { received: Vec::new(), max, too_large: false };
+    match timeout(settings.body_timeout, intake.take(request.into_body())).await {
+        Ok(taken) => taken?,
+        Err(_) if intake.too_large => {}
+        Err(_) => {
+            let seconds = settings.body_timeout.as_secs_f64();
+            let detail = format!("the body was not complete after {seconds} s");
+            return Err(Problem::new(ProblemKind::BodyTimeout, detail));
         }
     }
-    if discarded > 0 {
-        return Err(Problem::new(ProblemKind::BodyTooLarge, format!("a body has at most {max} bytes")));
+    if intake.too_large { Err(too_large(max)) } else { Ok(intake.received) }
+}
+
+fn too_large(max: usize) -> Problem {
+    Problem::new(ProblemKind::BodyTooLarge, format!("a body has at most {max} bytes"))
+}
+
+/// What has been received so far.
+struct Intake {
+    received: Vec<u8>,
+    max: usize,
+    too_large: bool,
+}
+
+impl Intake {
+    /// Take in all of the body. What is too large is not kept, but taken to its end all the same: many clients read the
+    /// answer only once they have sent everything.
+    async fn take(&mut self, mut body: Body) -> Result<(), Problem> {
+        while let Some(piece) = next(&mut body).await? {
+            self.too_large |= self.received.len() + piece.len() > self.max;
+            if self.too_large {
+                self.received = Vec::new();
+            } else {
+                self.received.extend_from_slice(&piece);
+            }
+        }
+        Ok(())
     }
-    Ok(received)
 }
 
 /// The next piece of data; trailers are passed over.

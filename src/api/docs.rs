@@ -3,6 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use axum::extract::Path;
+use axum::extract::rejection::PathRejection;
 use axum::http::header;
 use axum::response::{IntoResponse, Redirect, Response};
 use utoipa_swagger_ui::Config;
@@ -23,8 +24,12 @@ pub(super) async fn page() -> Result<Response, Problem> {
     send("").await
 }
 
-pub(super) async fn file(Path(name): Path<String>) -> Result<Response, Problem> {
-    send(&name).await
+pub(super) async fn file(name: Result<Path<String>, PathRejection>) -> Result<Response, Problem> {
+    match name {
+        Ok(Path(name)) => send(&name).await,
+        // No file has a name that is not UTF-8.
+        Err(_) => Err(not_found().await),
+    }
 }
 
 async fn send(name: &str) -> Result<Response, Problem> {

@@ -11,7 +11,7 @@ use utoipa::{IntoResponses, OpenApi};
 
 use super::problem::PROBLEM_JSON;
 use super::router;
-use crate::wire::Problem;
+use crate::wire::{Problem, ProblemKind};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -72,27 +72,51 @@ pub fn openapi_json() -> String {
 /// The problems of every request with a body.
 pub(super) struct RequestProblems;
 
-const REQUEST_PROBLEMS: [(u16, &str); 8] = [
-    (400, "The body is not JSON, or incomplete."),
-    (406, "No representation that `Accept` admits."),
-    (408, "The body came too slowly."),
-    (413, "The body is larger than the limit, 4,000,000 bytes by default."),
-    (415, "The body is not declared to be JSON in UTF-8."),
-    (422, "The request is invalid: every fault with its JSON pointer."),
-    (500, "A defect of the service; an answer that failed its own check is withheld."),
-    (503, "Every thread is busy and the queue is full, or the service shuts down."),
+/// What is said of each problem, and its detail in the example. The schema's own example is the 422.
+const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
+    (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
+    (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
+    (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 10 s"),
+    (
+        ProblemKind::BodyTooLarge,
+        "The body is larger than the limit, 4,000,000 bytes by default.",
+        "a body has at most 4000000 bytes",
+    ),
+    (
+        ProblemKind::UnsupportedMediaType,
+        "The body is not declared to be JSON in UTF-8.",
+        "there is no Content-Type; send application/json",
+    ),
+    (ProblemKind::InvalidRequest, "The request is invalid: every fault with its JSON pointer.", ""),
+    (
+        ProblemKind::CheckFailed,
+        "A defect of the service; an answer that failed its own check is withheld.",
+        "the answer is withheld; the scene is in the log",
+    ),
+    (
+        ProblemKind::Overloaded,
+        "Every thread is busy and the queue is full, or the service shuts down.",
+        "every thread is busy and the queue is full",
+    ),
 ];
 
 impl IntoResponses for RequestProblems {
     fn responses() -> BTreeMap<String, RefOr<Response>> {
-        REQUEST_PROBLEMS.iter().map(|(status, text)| (status.to_string(), problem(*status, text).into())).collect()
+        let response = |&(kind, description, detail): &(ProblemKind, &str, &str)| {
+            let example = Problem::new(kind, detail);
+            (example.status().to_string(), problem(&example, description).into())
+        };
+        REQUEST_PROBLEMS.iter().map(response).collect()
     }
 }
 
-fn problem(status: u16, description: &str) -> Response {
-    let content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
-    let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content);
-    if status != 503 {
+fn problem(example: &Problem, description: &str) -> Response {
+    let mut content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
+    if example.kind() != ProblemKind::InvalidRequest {
+        content = content.example(serde_json::to_value(example).ok());
+    }
+    let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content.build());
+    if example.kind() != ProblemKind::Overloaded {
         return response.build();
     }
     let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();

@@ -10,6 +10,8 @@ mod patience;
 mod plans;
 mod probes;
 mod problem;
+mod reading;
+mod refusal;
 mod router;
 pub mod server;
 mod settings;

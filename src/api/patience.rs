@@ -1,8 +1,11 @@
-//! A connection that gives a request's head a short time and the pause between two requests a long one. Hyper has one
-//! time for both: short enough for slow heads, it would close a robot's idle connection just as it calls again.
+//! The stream of a connection, with what hyper lacks.
+//!
+//! A request's head gets a short time and the pause between two requests a long one. Hyper has one time for both: short
+//! enough for slow heads, it would close a robot's idle connection just as it calls again. A client that takes none of its
+//! answer is not waited for either. And where hyper refuses a head on its own, without a body, a problem goes out instead.
 
 use core::pin::Pin;
-use core::task::{Context, Poll};
+use core::task::{Context, Poll, ready};
 use core::time::Duration;
 use std::io::{self, ErrorKind, IoSlice};
 use std::sync::Arc;
@@ -11,6 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::time::{Sleep, sleep};
+
+use super::refusal;
+use super::settings::ServerSettings;
 
 /// True while no request is being answered. Shared by the stream and the service on top of it.
 #[derive(Clone, Default)]
@@ -31,25 +37,60 @@ impl Quiet {
 pub(super) struct PatientStream {
     stream: TcpStream,
     quiet: Quiet,
-    patience: Duration,
+    head_patience: Duration,
+    write_patience: Duration,
     /// Runs while a head has begun and is not complete.
     head: Option<Pin<Box<Sleep>>>,
+    /// Runs while the client takes nothing.
+    stuck: Option<Pin<Box<Sleep>>>,
+    /// The rest of a problem that stands for a refusal of hyper's.
+    owed: Vec<u8>,
 }
 
 impl PatientStream {
-    /// The first head is due within `patience` from now, each later one from its first byte.
-    pub(super) fn new(stream: TcpStream, patience: Duration) -> (Self, Quiet) {
+    /// The first head is due within `header_timeout` from now, each later one from its first byte.
+    pub(super) fn new(stream: TcpStream, settings: &ServerSettings) -> (Self, Quiet) {
         let quiet = Quiet::default();
         quiet.set(true);
-        (Self { stream, quiet: quiet.clone(), patience, head: Some(Box::pin(sleep(patience))) }, quiet)
+        let (head_patience, write_patience) = (settings.header_timeout, settings.write_timeout);
+        let head = Some(Box::pin(sleep(head_patience)));
+        let own = quiet.clone();
+        (Self { stream, quiet: own, head_patience, write_patience, head, stuck: None, owed: Vec::new() }, quiet)
     }
 
     /// An error once the head that has begun is overdue.
     fn check_head(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
-        match &mut self.head {
-            Some(head) => head.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
-            None => Poll::Pending,
+        poll_timer(&mut self.head, context)
+    }
+
+    /// The outcome of a write, or an error where the client has taken nothing for too long.
+    fn check_write<T>(&mut self, written: Poll<io::Result<T>>, context: &mut Context<'_>) -> Poll<io::Result<T>> {
+        if written.is_ready() {
+            self.stuck = None;
+            return written;
         }
+        self.stuck.get_or_insert_with(|| Box::pin(sleep(self.write_patience)));
+        match poll_timer(&mut self.stuck, context) {
+            Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
+            _ => Poll::Pending,
+        }
+    }
+
+    fn poll_owed(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        while !self.owed.is_empty() {
+            let written = Pin::new(&mut self.stream).poll_write(context, &self.owed);
+            let count = ready!(self.check_write(written, context))?;
+            self.owed.drain(..count);
+        }
+        Poll::Ready(Ok(()))
+    }
+}
+
+/// An error once the timer has run out.
+fn poll_timer(timer: &mut Option<Pin<Box<Sleep>>>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+    match timer {
+        Some(timer) => timer.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
+        None => Poll::Pending,
     }
 }
 
@@ -67,7 +108,7 @@ impl AsyncRead for PatientStream {
             return self.check_head(context);
         }
         if self.quiet.get() && self.head.is_none() {
-            self.head = Some(Box::pin(sleep(self.patience)));
+            self.head = Some(Box::pin(sleep(self.head_patience)));
         }
         result
     }
@@ -75,7 +116,13 @@ impl AsyncRead for PatientStream {
 
 impl AsyncWrite for PatientStream {
     fn poll_write(mut self: Pin<&mut Self>, context: &mut Context<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write(context, bytes)
+        ready!(self.poll_owed(context))?;
+        if let Some(problem) = refusal::problem_for(bytes) {
+            self.owed = problem;
+            return Poll::Ready(Ok(bytes.len()));
+        }
+        let written = Pin::new(&mut self.stream).poll_write(context, bytes);
+        self.check_write(written, context)
     }
 
     fn poll_write_vectored(
@@ -83,7 +130,13 @@ impl AsyncWrite for PatientStream {
         context: &mut Context<'_>,
         slices: &[IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write_vectored(context, slices)
+        // A refusal has no body and so is one piece.
+        if let [bytes] = slices {
+            return self.poll_write(context, bytes);
+        }
+        ready!(self.poll_owed(context))?;
+        let written = Pin::new(&mut self.stream).poll_write_vectored(context, slices);
+        self.check_write(written, context)
     }
 
     fn is_write_vectored(&self) -> bool {
@@ -91,10 +144,12 @@ impl AsyncWrite for PatientStream {
     }
 
     fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        ready!(self.poll_owed(context))?;
         Pin::new(&mut self.stream).poll_flush(context)
     }
 
     fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        ready!(self.poll_owed(context))?;
         Pin::new(&mut self.stream).poll_shutdown(context)
     }
 }

@@ -11,7 +11,9 @@ use axum::response::{IntoResponse, Response};
 use super::accept::{self, Form};
 use super::app::{App, Served, json};
 use super::document::RequestProblems;
-use super::{body, log, problem};
+use super::problem::unread;
+use super::reading::Known;
+use super::{body, problem};
 use crate::budget::Budget;
 use crate::plan::{Answer, Statistics, Unplanned, Verdict};
 use crate::render;
@@ -20,7 +22,8 @@ use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
 /// Plan now
 ///
 /// Which objects to move, in which order, to where, so that the gripper can grasp the target; or the proof that nothing
-/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`.
+/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`;
+/// a scene too large to be read within it is `timed_out` unread, even if it is faulty.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -37,18 +40,22 @@ pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) ->
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
     let body = body::receive(request, &app.settings).await?;
-    let request = Arc::new(app.parse(body, read_scene).await?);
-    log::note_scene(request.scene_id.as_deref());
     let engine = app.engine;
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
         let answer = (engine.plan)(&request.scene, &request.settings, budget);
         write(form, request, &answer.map_err(|error| problem::plan_failed(request, &error))?)
     };
-    let too_late = move |request: &PlanRequest| {
-        let verdict = Verdict::TimedOut(Unplanned::default());
-        write(form, request, &Answer { verdict, statistics: Statistics::default() })
+    let too_late = move |known: Known<'_, PlanRequest>| match (known, form) {
+        (Known::Request(request), _) => {
+            let verdict = Verdict::TimedOut(Unplanned::default());
+            write(form, request, &Answer { verdict, statistics: Statistics::default() })
+        }
+        (Known::Glance(glance), Form::Json) => {
+            AnswerBody::unread(glance).map_or_else(|| Err(unread()), |body| json(&body))
+        }
+        (Known::Glance(_), Form::Svg) => Err(unread()),
     };
-    let bytes = app.compute(arrival, request, work, too_late).await?;
+    let bytes = app.answer(arrival, (body, read_scene), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }
 

@@ -44,6 +44,11 @@ pub(super) fn refused(refused: Refused) -> Problem {
     Problem::new(kind, refused.to_string())
 }
 
+/// A body that could not be read within its time limit, and nothing can be said without it.
+pub(super) fn unread() -> Problem {
+    Problem::new(ProblemKind::Overloaded, "the body could not be read within its time limit")
+}
+
 /// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
 pub(super) fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };

@@ -105,7 +105,7 @@ async fn serve(
     if let Err(error) = stream.set_nodelay(true) {
         tracing::debug!(%error, "the connection keeps its delay");
     }
-    let (stream, quiet) = PatientStream::new(stream, settings.header_timeout);
+    let (stream, quiet) = PatientStream::new(stream, &settings);
     let service = TowerToHyperService::new(service);
     let service = service_fn(move |request| {
         quiet.set(false);

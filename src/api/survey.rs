@@ -11,7 +11,9 @@ use axum::response::{IntoResponse, Response};
 use super::accept::{self, Form};
 use super::app::{App, json};
 use super::document::RequestProblems;
-use super::{body, log, problem};
+use super::problem::unread;
+use super::reading::Known;
+use super::{body, problem};
 use crate::budget::Budget;
 use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
 
@@ -35,15 +37,16 @@ pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) 
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
     let body = body::receive(request, &app.settings).await?;
-    let request = Arc::new(app.parse(body, read_scene).await?);
-    log::note_scene(request.scene_id.as_deref());
     let engine = app.engine;
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
         let entries = (engine.survey)(&request.scene, budget);
         let entries = entries.map_err(|error| problem::plan_failed(request, &error))?;
         json(&SurveyBody::new(&request.scene, &entries))
     };
-    let too_late = |request: &PlanRequest| json(&SurveyBody::timed_out(&request.scene));
-    let bytes = app.compute(arrival, request, work, too_late).await?;
+    let too_late = |known: Known<'_, PlanRequest>| match known {
+        Known::Request(request) => json(&SurveyBody::timed_out(&request.scene)),
+        Known::Glance(_) => Err(unread()),
+    };
+    let bytes = app.answer(arrival, (body, read_scene), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }

@@ -10,8 +10,9 @@ use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
 use super::app::{App, json};
+use super::body;
 use super::document::RequestProblems;
-use super::{body, log};
+use super::reading::Known;
 use crate::budget::Budget;
 use crate::wire::{Problem, VerificationBody, VerifyBody, VerifyRequest, read_verify};
 
@@ -35,13 +36,11 @@ pub(super) async fn verify(State(app): State<Arc<App>>, request: Request<Body>) 
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
     let body = body::receive(request, &app.settings).await?;
-    let request = Arc::new(app.parse(body, read_verify).await?);
-    log::note_scene(request.request.scene_id.as_deref());
     let engine = app.engine;
     let work = move |VerifyRequest { request, claim }: &VerifyRequest, budget: &Budget<'_>| {
         json(&VerificationBody::new(&(engine.check)(&request.scene, claim, budget)))
     };
-    let too_late = |_: &VerifyRequest| json(&VerificationBody::timed_out());
-    let bytes = app.compute(arrival, request, work, too_late).await?;
+    let too_late = |_: Known<'_, VerifyRequest>| json(&VerificationBody::timed_out());
+    let bytes = app.answer(arrival, (body, read_verify), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }

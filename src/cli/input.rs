@@ -15,7 +15,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     } else {
         std::fs::read(path)
     };
-    read.map_err(|error| Failure::Refused(format!("{}: {error}", path.display())))
+    read.map_err(|error| Failure::Refused(format!("{}: {error}", name(path))))
 }
 
 /// The scene in a file.
@@ -23,10 +23,15 @@ pub(super) fn scene(path: &Path, limits: &RequestLimits) -> Result<PlanRequest, 
     read_scene(&bytes(path)?, limits).map_err(|problem| refused(path, &problem))
 }
 
+fn name(path: &Path) -> String {
+    if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
+}
+
 /// What is wrong with a file, one line a fault.
 pub(super) fn refused(path: &Path, problem: &Problem) -> Failure {
-    let mut lines = vec![format!("{}: {}", path.display(), plain(problem.detail()))];
-    for error in problem.errors() {
+    let mut lines = vec![format!("{}: {}", name(path), plain(problem.detail()))];
+    // A text that is no JSON has one fault, and the first line tells it.
+    for error in problem.errors().iter().filter(|error| error.detail != problem.detail()) {
         let pointer = if error.pointer.is_empty() { "(the whole)" } else { &plain(&error.pointer) };
         lines.push(format!("  {}  {pointer}  {}", error.code, plain(&error.detail)));
     }

@@ -15,6 +15,9 @@ use crate::wire::{FaultBody, PlanRequest, VerificationBody};
 /// More ids than this in one sentence nobody reads.
 const MANY: usize = 40;
 
+/// What `no_space` does not say.
+const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
+
 /// The text with control characters made visible: an id must not move the cursor or forge a line.
 pub(super) fn plain(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
@@ -31,7 +34,8 @@ pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
         Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
         Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
         Verdict::Deadlock(deadlock) => paragraphs.push(why_never(scene, deadlock)),
-        Verdict::NoSpace(known) | Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
+        Verdict::NoSpace(known) => paragraphs.extend([so_far(scene, known), NO_PROOF.to_owned()]),
+        Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
     }
     let warnings = request.warnings.iter();
     paragraphs.push(
@@ -85,13 +89,18 @@ fn why_least(scene: &Scene, plan: &Plan) -> String {
 
 /// The landmarks as sentences.
 fn why_bound(scene: &Scene, bound: &LowerBound) -> String {
-    let lines = bound.landmarks.iter().map(|set| format!("Every plan moves at least one of: {}\n", ids(scene, set)));
-    let lines: String = lines.collect();
-    if bound.landmarks.len() < 2 {
+    let (single, several): (Vec<_>, Vec<_>) = bound.landmarks.iter().partition(|set| set.len() == 1);
+    let single: Vec<ObjectIndex> = single.into_iter().flatten().copied().collect();
+    let mut lines =
+        if single.is_empty() { String::new() } else { format!("Every plan moves: {}\n", ids(scene, &single)) };
+    for set in &several {
+        lines += &format!("Every plan moves at least one of: {}\n", ids(scene, set));
+    }
+    if several.len() + usize::from(!single.is_empty()) < 2 {
         return lines;
     }
-    let (count, meet) = (bound.cost, if bound.cost == 1 { "object meets" } else { "objects meet" });
-    format!("{lines}No fewer than {count} {meet} all of these sets.\n")
+    let (count, satisfy) = (bound.cost, if bound.cost == 1 { "object satisfies" } else { "objects satisfy" });
+    format!("{lines}No fewer than {count} {satisfy} all of these.\n")
 }
 
 fn ids(scene: &Scene, objects: &[ObjectIndex]) -> String {
@@ -159,9 +168,10 @@ pub(super) fn verification(body: &VerificationBody) -> String {
 
 /// One fault, steps counted from 1 as in the table of steps.
 pub(super) fn fault(fault: &FaultBody) -> String {
-    let step = fault.step.map(|step| format!("step {}: ", step + 1)).unwrap_or_default();
-    let object = fault.object.as_ref().map(|id| format!(" [{}]", plain(id))).unwrap_or_default();
-    format!("  {step}{}{object} ({})", plain(&fault.detail), fault.code)
+    let step = fault.step.map(|step| format!("step {}", step + 1));
+    let place: Vec<String> = step.into_iter().chain(fault.object.as_deref().map(plain)).collect();
+    let place = if place.is_empty() { String::new() } else { format!("{}: ", place.join(", ")) };
+    format!("  {place}{} ({})", plain(&fault.detail), fault.code)
 }
 
 /// What holds for every object as the target.

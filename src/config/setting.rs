@@ -52,7 +52,7 @@ const MAX_MS: u64 = 86_400_000;
 const MAX_BYTES: u64 = 1_000_000_000;
 
 /// Every setting.
-pub static SETTINGS: [Setting; 14] = [
+pub static SETTINGS: [Setting; 15] = [
     Setting {
         name: "listen",
         scope: Scope::Service,
@@ -115,6 +115,14 @@ pub static SETTINGS: [Setting; 14] = [
         help: "How long a request's body may take",
         set: |config, text| milliseconds(text, &mut config.server.body_timeout),
         get: |config| config.server.body_timeout.as_millis().to_string(),
+    },
+    Setting {
+        name: "write_timeout_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a client may take nothing of an answer that waits for it",
+        set: |config, text| milliseconds(text, &mut config.server.write_timeout),
+        get: |config| config.server.write_timeout.as_millis().to_string(),
     },
     Setting {
         name: "max_objects",

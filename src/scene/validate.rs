@@ -41,6 +41,9 @@ impl Default for SceneLimits {
     }
 }
 
+/// An overlap of just the tolerance, written in decimals, may come out deeper by the rounding of its figures; m.
+const ROUNDING: f64 = 1e-9;
+
 pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene, Vec<Finding>), Vec<Finding>> {
     let mut faults = Findings::default();
     let mut warnings = Findings::default();
@@ -203,7 +206,7 @@ fn overlaps(
         for other in touched {
             let other = &objects[other.get()];
             let depth = -disc.gap(&other.disc);
-            let list = if depth > tolerance { &mut *faults } else { &mut *warnings };
+            let list = if depth > tolerance + ROUNDING { &mut *faults } else { &mut *warnings };
             list.add(Place::WholeObject(at), Flaw::Overlap { other: other.id.clone(), depth, tolerance });
         }
         if faults.full() {

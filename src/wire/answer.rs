@@ -6,6 +6,7 @@ use nalgebra::Point2;
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::glance::Glance;
 use super::problem::ErrorItem;
 use super::request::PlanRequest;
 use crate::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
@@ -111,10 +112,10 @@ pub enum ActionWord {
 /// A point on the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 pub struct PointBody {
-    /// m.
+    /// Along the table\'s x, m.
     #[schema(example = 0.4)]
     pub x: f64,
-    /// m.
+    /// Along the table\'s y, m.
     #[schema(example = 0.2)]
     pub y: f64,
 }
@@ -163,9 +164,31 @@ impl AnswerBody {
     pub fn new(request: &PlanRequest, answer: &Answer) -> Self {
         let scene = &request.scene;
         let blank = Self {
+            warnings: request.warnings.clone(),
+            statistics: StatisticsBody::new(&answer.statistics),
+            ..Self::blank(request.scene_id.clone(), id(scene, scene.target()))
+        };
+        match &answer.verdict {
+            Verdict::Graspable(grasp) => blank.graspable(*grasp),
+            Verdict::Relocate(plan) => blank.relocate(scene, plan),
+            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock),
+            Verdict::NoSpace(unplanned) => blank.unplanned(VerdictWord::NoSpace, scene, unplanned),
+            Verdict::TimedOut(unplanned) => blank.unplanned(VerdictWord::TimedOut, scene, unplanned),
+        }
+    }
+
+    /// The answer to a request that was too large to be read in its time: `timed_out`. `None` where not even the target
+    /// is known.
+    pub fn unread(glance: &Glance) -> Option<Self> {
+        let blank = Self::blank(glance.scene_id.clone(), glance.target.clone()?);
+        Some(Self { verdict: VerdictWord::TimedOut, ..blank }.bounded(0, Vec::new()))
+    }
+
+    fn blank(scene_id: Option<String>, target: String) -> Self {
+        Self {
             verdict: VerdictWord::Graspable,
-            scene_id: request.scene_id.clone(),
-            target: id(scene, scene.target()),
+            scene_id,
+            target,
             relocations: Vec::new(),
             target_grasp: None,
             cost: None,
@@ -174,15 +197,8 @@ impl AnswerBody {
             landmarks: None,
             deadlock: None,
             needed: None,
-            warnings: request.warnings.clone(),
-            statistics: StatisticsBody::new(&answer.statistics),
-        };
-        match &answer.verdict {
-            Verdict::Graspable(grasp) => blank.graspable(*grasp),
-            Verdict::Relocate(plan) => blank.relocate(scene, plan),
-            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock),
-            Verdict::NoSpace(unplanned) => blank.unplanned(VerdictWord::NoSpace, scene, unplanned),
-            Verdict::TimedOut(unplanned) => blank.unplanned(VerdictWord::TimedOut, scene, unplanned),
+            warnings: Vec::new(),
+            statistics: StatisticsBody::new(&Statistics::default()),
         }
     }
 
@@ -248,7 +264,8 @@ impl GraspBody {
 
 impl StatisticsBody {
     fn new(statistics: &Statistics) -> Self {
-        let ms = |duration: Duration| duration.as_secs_f64() * 1000.0;
+        // Whole nanoseconds, so that 15.72 µs is not written as 0.015719999999999998.
+        let ms = |duration: Duration| (duration.as_secs_f64() * 1e9).round() / 1e6;
         Self {
             knowledge_ms: ms(statistics.knowledge),
             search_ms: ms(statistics.search),

@@ -6,6 +6,7 @@
 mod answer;
 mod claim;
 mod finding;
+mod glance;
 mod problem;
 mod reader;
 mod request;
@@ -18,6 +19,7 @@ pub use answer::{
     ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord,
 };
 pub use claim::{VerifyRequest, read_plan, read_verify};
+pub use glance::Glance;
 pub use problem::{ErrorItem, Problem, ProblemKind};
 pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
 pub use scene::{

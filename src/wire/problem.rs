@@ -50,6 +50,15 @@ pub enum ProblemKind {
     /// The connection broke or the transfer was garbled before the body was complete.
     #[serde(rename = "urn:singulate:problem:broken_body")]
     BrokenBody,
+    /// The head of the request is not HTTP/1.1.
+    #[serde(rename = "urn:singulate:problem:malformed_http")]
+    MalformedHttp,
+    /// The request's path is too long.
+    #[serde(rename = "urn:singulate:problem:uri_too_long")]
+    UriTooLong,
+    /// The head of the request is too large.
+    #[serde(rename = "urn:singulate:problem:head_too_large")]
+    HeadTooLarge,
     /// Every thread is busy and the queue is full.
     #[serde(rename = "urn:singulate:problem:overloaded")]
     Overloaded,
@@ -70,6 +79,7 @@ impl ProblemKind {
         match self {
             Self::MalformedJson => (400, "The body is not JSON"),
             Self::BrokenBody => (400, "The body is incomplete"),
+            Self::MalformedHttp => (400, "The request is not HTTP"),
             Self::NotFound => (404, "Nothing lives at this path"),
             Self::MethodNotAllowed => (405, "The method is not allowed here"),
             Self::NotAcceptable => (406, "No acceptable representation"),
@@ -77,6 +87,8 @@ impl ProblemKind {
             Self::BodyTooLarge => (413, "The body is too large"),
             Self::UnsupportedMediaType => (415, "The body must be JSON"),
             Self::InvalidRequest => (422, "The request is invalid"),
+            Self::UriTooLong => (414, "The path is too long"),
+            Self::HeadTooLarge => (431, "The head is too large"),
             Self::CheckFailed => (500, "The answer did not pass its check"),
             Self::Internal => (500, "Internal error"),
             Self::Overloaded => (503, "Overloaded"),

@@ -59,11 +59,20 @@ impl Faults {
     }
 }
 
+/// What some editors put before a text in UTF-8; no part of JSON.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// The body as JSON.
 pub(super) fn parse(body: &[u8]) -> Result<Value, Problem> {
     serde_json::from_slice(body).map_err(|error| {
-        // The reader's message ends with the line and the column.
-        let detail = format!("the body is not JSON: {error}");
+        let detail = if body.trim_ascii().is_empty() {
+            "the body is empty".to_owned()
+        } else if body.starts_with(BYTE_ORDER_MARK) {
+            "the body is not JSON: it begins with a byte order mark; send UTF-8 without".to_owned()
+        } else {
+            // The reader's message ends with the line and the column.
+            format!("the body is not JSON: {error}")
+        };
         let item = ErrorItem { code: "malformed_json", pointer: String::new(), detail: detail.clone() };
         Problem::new(ProblemKind::MalformedJson, detail).with_errors(vec![item])
     })
@@ -123,7 +132,11 @@ impl<'a> Node<'a> {
         if value.is_none() {
             // Only a literal beyond the range of a double has no value.
             let literal: String = number.as_str().chars().take(40).collect();
-            faults.add("out_of_range", self.path, format_args!("{literal} is greater than any number here may be"));
+            faults.add(
+                "out_of_range",
+                self.path,
+                format_args!("{literal} is further from 0 than any number here may be"),
+            );
         }
         value
     }

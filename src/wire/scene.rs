@@ -13,14 +13,16 @@ use crate::scene::{Gripper, Object, Rectangle, Scene};
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({
     "scene_id": "cell-4/17",
-    "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7},
+    "table": {"x_min": 0, "y_min": 0, "x_max": 0.8, "y_max": 0.5},
     "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
     "objects": [
-        {"id": "plate-1", "x": 0.31, "y": 0.22, "radius": 0.075},
-        {"id": "plate-2", "x": 0.465, "y": 0.22, "radius": 0.075},
-        {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
+        {"id": "cup", "x": 0.4, "y": 0.25, "radius": 0.04},
+        {"id": "plate-1", "x": 0.5, "y": 0.29, "radius": 0.06},
+        {"id": "plate-2", "x": 0.4, "y": 0.36, "radius": 0.06},
+        {"id": "plate-3", "x": 0.31, "y": 0.2, "radius": 0.06},
+        {"id": "vase", "x": 0.44, "y": 0.16, "radius": 0.05, "fixed": true}
     ],
-    "target": "plate-1",
+    "target": "cup",
     "settings": {"objective": "far_from_target", "time_limit_ms": 1000}
 }))]
 pub struct SceneBody {

@@ -99,10 +99,10 @@ pub struct StatedRelocation {
 #[derive(Debug, Clone, Copy, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedPoint {
-    /// m.
+    /// Along the table\'s x, m.
     #[schema(minimum = -100000, maximum = 100000, example = 0.4)]
     pub x: f64,
-    /// m.
+    /// Along the table\'s y, m.
     #[schema(minimum = -100000, maximum = 100000, example = 0.2)]
     pub y: f64,
 }

@@ -43,7 +43,7 @@ fn a_bad_scene_gives_every_fault_with_its_place_and_status_2() {
     for command in ["plan", "survey"] {
         let errors = failed(&run_with_input(&[command, "-"], FAULTY), 2);
         let lines: Vec<&str> = errors.lines().collect();
-        assert_eq!(lines[0], "-: 4 faults");
+        assert_eq!(lines[0], "stdin: 4 faults");
         let starts = [
             "  unknown_field  /colour  ",
             "  wrong_type  /gripper/clearance  ",
@@ -54,7 +54,8 @@ fn a_bad_scene_gives_every_fault_with_its_place_and_status_2() {
             assert!(lines[1..].iter().any(|line| line.starts_with(start)), "no '{start}' in {errors}");
         }
     }
-    assert!(failed(&run_with_input(&["plan", "-"], "{\"table\": }"), 2).contains("line 1 column 11"));
+    let errors = failed(&run_with_input(&["plan", "-"], "{\"table\": }"), 2);
+    assert!(errors.contains("line 1 column 11") && errors.lines().count() == 1, "told once: {errors}");
     assert!(failed(&run(&["plan", "/nowhere.json"]), 2).starts_with("/nowhere.json: "));
 }
 

@@ -1,5 +1,7 @@
 //! What is refused, and with which words.
 
+use core::time::Duration;
+
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
 
@@ -104,9 +106,54 @@ async fn a_body_above_the_limit_is_a_413_in_chunks_too() {
 }
 
 #[tokio::test]
+async fn a_body_far_above_the_limit_is_a_413_all_the_same() {
+    let host = Host::start().await;
+    // The client writes everything before it reads.
+    let body = " ".repeat(30_000_000);
+    host.post_with("/v1/plans", &[("content-type", "application/json")], body).await.is_problem(413, "body_too_large");
+}
+
+#[tokio::test]
+async fn a_body_above_the_limit_that_never_ends_is_a_413_in_the_end() {
+    let body_timeout = Duration::from_millis(50);
+    let settings = ServerSettings { max_body_bytes: 1000, body_timeout, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: 9999";
+    let text = read_to_end(host.raw(&format!("{head}\r\n\r\n{}", " ".repeat(2000)))).await;
+    assert!(text.starts_with("HTTP/1.1 413 "), "{text}");
+}
+
+#[tokio::test]
+async fn a_client_that_asks_before_it_sends_learns_what_is_wrong_at_once() {
+    let host = Host::start().await;
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\nexpect: 100-continue\r\nconnection: close\r\n";
+    for (fields, status) in [
+        ("content-type: application/json\r\ncontent-length: 4000001", "413"),
+        ("content-type: text/plain\r\ncontent-length: 10", "415"),
+    ] {
+        let text = read_to_end(host.raw(&format!("{head}{fields}\r\n\r\n"))).await;
+        assert!(text.starts_with(&format!("HTTP/1.1 {status} ")), "{text}");
+    }
+    let body = scene(1000).to_string();
+    let fields = format!("content-type: application/json\r\ncontent-length: {}", body.len());
+    let text = read_to_end(host.raw(&format!("{head}{fields}\r\n\r\n{body}"))).await;
+    assert!(text.starts_with("HTTP/1.1 100 ") && text.contains("HTTP/1.1 200 OK"), "{text}");
+}
+
+#[tokio::test]
+async fn what_is_no_text_at_all_is_named() {
+    let host = Host::start().await;
+    for (body, word) in [("", "empty"), (" \n", "empty"), ("\u{feff}{}", "byte order mark")] {
+        let reply = host.post_with("/v1/plans", &[("content-type", "application/json")], body.to_owned()).await;
+        reply.is_problem(400, "malformed_json");
+        assert!(reply.json()["detail"].as_str().unwrap().contains(word), "{reply:?}");
+    }
+}
+
+#[tokio::test]
 async fn an_unknown_path_is_a_404() {
     let host = Host::start().await;
-    for path in ["/", "/v1", "/v1/plans/", "/v2/plans", "/docs/nothing.js", "/livez/x"] {
+    for path in ["/", "/v1", "/v1/plans/", "/v2/plans", "/docs/nothing.js", "/docs/%ff", "/livez/x"] {
         host.get(path).await.is_problem(404, "not_found");
     }
     host.post("/v1/nothing", &json!({})).await.is_problem(404, "not_found");

@@ -64,3 +64,42 @@ async fn connections_above_the_cap_wait_for_their_turn() {
     drop(first);
     assert!(read_to_end(second).await.starts_with("HTTP/1.1 200 OK"));
 }
+
+#[tokio::test]
+async fn a_head_that_is_no_http_is_a_problem() {
+    let host = Host::start().await;
+    let long = "a".repeat(70_000);
+    for (text, status, kind) in [
+        ("rubbish\r\n\r\n".to_owned(), 400, "malformed_http"),
+        ("GET / HTTP/9.9\r\n\r\n".to_owned(), 400, "malformed_http"),
+        ("GET / HTTP/1.1\r\nno colon\r\n\r\n".to_owned(), 400, "malformed_http"),
+        (format!("GET /{long} HTTP/1.1\r\n\r\n"), 414, "uri_too_long"),
+        (format!("GET / HTTP/1.1\r\n{}\r\n", "x: y\r\n".repeat(101)), 431, "head_too_large"),
+        (format!("GET /livez HTTP/1.1\r\nx: {}\r\n\r\n", long.repeat(20)), 431, "head_too_large"),
+        ("GET /livez HTTP/1.1\r\nhost: x\r\n\r\nrubbish\r\n\r\n".to_owned(), 400, "malformed_http"),
+    ] {
+        let text = read_to_end(host.raw(&text)).await;
+        let last = &text[text.rfind("HTTP/1.1 ").unwrap()..];
+        let (head, body) = last.split_once("\r\n\r\n").unwrap();
+        assert!(head.starts_with(&format!("HTTP/1.1 {status} ")), "{text}");
+        assert!(head.contains("\r\ncontent-type: application/problem+json\r\n"), "{text}");
+        assert!(head.contains(&format!("\r\ncontent-length: {}\r\n", body.len())), "{text}");
+        let problem: serde_json::Value = serde_json::from_str(body).unwrap();
+        assert_eq!(problem["type"], format!("urn:singulate:problem:{kind}"));
+        assert_eq!(problem["status"], status);
+    }
+}
+
+#[tokio::test]
+async fn a_client_that_takes_none_of_its_answers_is_not_waited_for() {
+    let write_timeout = Duration::from_millis(100);
+    let host =
+        Host::with(ServerSettings { connections: 1, write_timeout, ..ServerSettings::default() }, Engine::default());
+    let host = host.await;
+    // So many answers at once fit in no buffer between the two.
+    let requests = "GET /openapi.json HTTP/1.1\r\nhost: x\r\n\r\n".repeat(500);
+    let greedy = host.raw(&requests);
+    let next = host.raw("GET /livez HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n");
+    assert!(read_to_end(next).await.starts_with("HTTP/1.1 200 OK"), "the only connection is free again");
+    drop(greedy);
+}

@@ -151,6 +151,12 @@ pub(crate) fn scene(time_limit_ms: u64) -> Value {
 
 /// A planning request as it goes over the wire.
 pub(crate) fn raw_plan(body: &Value) -> String {
-    let (body, head) = (body.to_string(), "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json");
+    raw_post("/v1/plans", body)
+}
+
+/// A request as it goes over the wire.
+pub(crate) fn raw_post(path: &str, body: &Value) -> String {
+    let head = format!("POST {path} HTTP/1.1\r\nhost: x\r\ncontent-type: application/json");
+    let body = body.to_string();
     format!("{head}\r\ncontent-length: {}\r\n\r\n{body}", body.len())
 }

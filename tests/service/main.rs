@@ -5,6 +5,8 @@
 mod bodies;
 mod connections;
 mod document;
+mod golden;
+mod haste;
 mod host;
 mod negotiation;
 mod planning;

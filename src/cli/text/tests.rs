@@ -48,14 +48,23 @@ fn a_plan_shows_its_steps_and_why_none_is_shorter() {
          \n\
          Then grasp cup at yaw 28.6° ±5.7°.\n\
          \n\
-         Every plan moves at least one of: plate-2\n\
-         Every plan moves at least one of: b\\u{{1b}}[2J\n\
-         No fewer than 2 objects meet all of these sets.\n\
+         Every plan moves: plate-2, b\\u{{1b}}[2J\n\
          So 2 is the least.\n\
          \n\
          {TIMES}"
     );
     assert_eq!(text(plan(2, &[&[1], &[2]])), expected);
+}
+
+#[test]
+fn sets_of_several_objects_follow_those_that_every_plan_moves() {
+    let text = text(plan(2, &[&[1, 2], &[2, 3], &[1]]));
+    let expected = "Every plan moves: plate-2\n\
+                    Every plan moves at least one of: plate-2, b\\u{1b}[2J\n\
+                    Every plan moves at least one of: b\\u{1b}[2J, vase\n\
+                    No fewer than 2 objects satisfy all of these.\n\
+                    So 2 is the least.\n";
+    assert!(text.contains(expected), "{text}");
 }
 
 #[test]
@@ -104,6 +113,8 @@ fn without_a_plan_the_bound_and_the_needed_order_are_told() {
          Every plan moves at least one of: plate-2, b\\u{{1b}}[2J\n\
          So at least 1 must move.\n\
          \n\
+         This is no proof: the places that were tried do not suffice, others may.\n\
+         \n\
          {TIMES}"
     );
     assert_eq!(text(Verdict::NoSpace(known)), expected);
@@ -141,6 +152,6 @@ fn a_verification_lists_its_faults_with_steps_counted_from_one() {
         detail: "finger 1 is 3 mm inside 'vase'".to_owned(),
     };
     let text = verification(&VerificationBody { valid: false, faults: vec![fault] });
-    assert_eq!(text, "not valid: 1 fault\n  step 1: finger 1 is 3 mm inside 'vase' [plate-2] (blocked_grasp)\n");
+    assert_eq!(text, "not valid: 1 fault\n  step 1, plate-2: finger 1 is 3 mm inside 'vase' (blocked_grasp)\n");
     assert_eq!(verification(&VerificationBody { valid: true, faults: Vec::new() }), "valid: the plan holds\n");
 }

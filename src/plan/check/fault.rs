@@ -15,6 +15,11 @@ pub struct Fault {
     pub detail: String,
 }
 
+/// A figure for people: to the checker's own precision, or as it is where that says nothing.
+pub(super) fn figure(value: f64) -> String {
+    if value.abs() < 1e6 { format!("{value:.9}") } else { format!("{value:e}") }
+}
+
 /// The kinds of fault. Those that end in `Unconfirmed` say that time ran out, not that anything is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultCode {

@@ -6,7 +6,7 @@ use crate::budget::Interrupted;
 use crate::scene::{Disc, ObjectIndex, Rectangle, Scene};
 
 use super::TOLERANCE;
-use super::fault::{FaultCode, Faults};
+use super::fault::{FaultCode, Faults, figure};
 use super::meter::Meter;
 use super::near::{PlaceIndex, Places};
 
@@ -114,7 +114,7 @@ impl Landing<'_> {
         // NaN does not agree with anything.
         let agrees = (real - stated).abs() <= TOLERANCE;
         if !agrees {
-            let detail = || format!("the least gap is {real:.9} m, not {stated:e} m");
+            let detail = || format!("the least gap is {real:.9} m, not {} m", figure(stated));
             faults.of_step(FaultCode::WrongGap, self.step, self.id(), detail);
         }
     }

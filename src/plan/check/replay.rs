@@ -9,7 +9,7 @@ use crate::plan::claim::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use crate::scene::{Disc, ObjectIndex, Scene};
 
 use super::TOLERANCE;
-use super::fault::{FaultCode, Faults};
+use super::fault::{FaultCode, Faults, figure};
 use super::finger::Finger;
 use super::meter::Meter;
 use super::names::Names;
@@ -114,7 +114,7 @@ impl Replay<'_> {
         // NaN does not agree with anything.
         let agrees = (real - stated).norm() <= TOLERANCE;
         if !agrees {
-            let detail = || format!("stands at ({}, {}), not at ({:e}, {:e})", real.x, real.y, stated.x, stated.y);
+            let detail = || format!("stands at {}, not at {}", point(real), point(stated));
             self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), detail);
         }
     }
@@ -132,7 +132,7 @@ impl Replay<'_> {
         // Where nothing blocks, the slack is π/k even if the tolerance is more.
         let in_range = (least.min(most) - TOLERANCE..=most + TOLERANCE).contains(&slack);
         if grasp.slack.is_some() && !in_range {
-            let detail = || format!("slack {slack:e} is not between {least} and {most} rad");
+            let detail = || format!("slack {} is not between {least:.9} and {most:.9} rad", figure(slack));
             self.faults.add(FaultCode::WrongSlack, step, Some(id), detail);
         }
         Some(slack.clamp(least, most.max(least)))
@@ -171,9 +171,15 @@ impl Replay<'_> {
         }
         if let Some((depth, by)) = worst {
             let (id, by) = (self.scene.object(object).id(), self.scene.object(by).id());
-            let detail = || format!("a finger comes {depth:.9} m too near to '{by}' at yaw {} ± {band}", grasp.yaw);
+            let detail = || {
+                format!("a finger comes {depth:.9} m too near to '{by}' at yaw {} ± {band:.9} rad", figure(grasp.yaw))
+            };
             self.faults.add(code, step, Some(id), detail);
         }
         Ok(())
     }
+}
+
+fn point(at: Point2<f64>) -> String {
+    format!("({}, {})", figure(at.x), figure(at.y))
 }

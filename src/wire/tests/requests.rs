@@ -224,6 +224,16 @@ fn shallow_overlaps_and_overlapping_fingers_are_warnings() {
 }
 
 #[test]
+fn an_overlap_of_just_the_tolerance_is_a_warning() {
+    // 0.075 + 0.01 - (0.3 - 0.216) comes out above 0.001.
+    let near = json!({"id": "b", "x": 0.216, "y": 0.2, "radius": 0.01});
+    let request = read(&with("/objects/1", near).to_string()).unwrap();
+    assert_eq!(request.warnings[0].code, "overlap");
+    let nearer = json!({"id": "b", "x": 0.216_001, "y": 0.2, "radius": 0.01});
+    assert_eq!(read(&with("/objects/1", nearer).to_string()).unwrap_err().errors()[0].code, "overlap");
+}
+
+#[test]
 fn a_written_scene_reads_as_the_same_scene() {
     let request =
         read(&with("/table/keep_out", json!([{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}])).to_string());

@@ -1,0 +1,44 @@
+//! The scenes that ask the most of the service.
+
+use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+
+use super::cases::count;
+
+/// `objects` dishes of two sizes in one pressed cluster, for a gripper with four slim fingers.
+pub(crate) fn pressed(objects: usize, seed: u64) -> SceneDraft {
+    let side = (count(objects) * 0.05 * 0.05 * core::f64::consts::PI / 0.3).sqrt();
+    let gripper = GripperDraft { fingers: Some(4.0), finger_width: Some(0.01), ..Recipe::default().gripper };
+    let recipe = Recipe {
+        objects,
+        table: (side, side),
+        radius: (0.04, 0.06),
+        gripper,
+        arrangement: Arrangement::Pressed,
+        pressed_gap: 0.015,
+        ..Recipe::default()
+    };
+    generate(&recipe, seed).expect("fits")
+}
+
+/// 10,000 crumbs, all but touching. With a clearance of 16.5 mm a grasp has as many in reach as the limit admits.
+pub(crate) fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
+    let pitch = 0.0022;
+    let place = |n: u32, shift: u32| 0.01 + pitch * f64::from(n) + 1e-5 * f64::from(shift % 11);
+    let crumb = |(i, j): (u32, u32)| ObjectDraft {
+        id: Some(format!("c{i}-{j}")),
+        x: Some(place(i, 7 * i + 13 * j)),
+        y: Some(place(j, 5 * i + 3 * j)),
+        radius: Some(0.001),
+        fixed: false,
+    };
+    let objects = (0..100).flat_map(|i| (0..100).map(move |j| (i, j))).map(crumb).collect();
+    let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(0.4), y_max: Some(0.4) };
+    let gripper = GripperDraft {
+        fingers: Some(fingers),
+        finger_width: Some(0.0002),
+        clearance: Some(clearance),
+        ..Recipe::default().gripper
+    };
+    SceneDraft { table: TableDraft { top, keep_out: Vec::new() }, gripper, objects, target: Some("c50-50".into()) }
+}

@@ -1,0 +1,198 @@
+//! How long after its time limit an answer leaves: hard scenes and short limits, alone and eight at a time, against a
+//! server in this process with the default settings.
+//!
+//! Counted at the client, from the end of its sending to the last byte of the answer, so the way through the loopback is
+//! in it. A thread that sleeps for 10 ms at a time tells how late the machine itself is. Fails where an answer was later
+//! than 50 ms and that thread's 99th percentile together.
+
+mod cases;
+#[path = "cases/hard.rs"]
+mod hard;
+
+use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Barrier};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use singulate::api::{self, ServerSettings};
+use singulate::scene::{Scene, SceneDraft};
+use singulate::wire::{RequestLimits, SceneBody, read_scene};
+use tokio::net::TcpListener;
+
+const GRACE: Duration = Duration::from_millis(50);
+const TICK: Duration = Duration::from_millis(10);
+const LIMITS_MS: [u64; 5] = [1, 10, 50, 200, 1000];
+const CLIENTS: [usize; 2] = [1, 8];
+/// Each row repeats its requests for so long, and no more often than that.
+const ROW: Duration = Duration::from_millis(1500);
+const MAX_ROUNDS: u128 = 10;
+type Case = (&'static str, fn() -> SceneDraft);
+const SCENES: [Case; 6] = [
+    ("pressed, 300", || hard::pressed(300, 0)),
+    ("pressed, 1,000", || hard::pressed(1000, 0)),
+    ("pressed, 10,000", || hard::pressed(10_000, 0)),
+    ("dishes at 45 %, 10,000", || cases::equal_density(10_000, 0)),
+    ("crumbs, 7 mm, 10,000", || hard::crumbs(2.0, 0.007)),
+    ("crumbs, 16.5 mm, 10,000", || hard::crumbs(4.0, 0.0165)),
+];
+
+fn main() -> ExitCode {
+    let address = serve();
+    let timer = Timer::start();
+    let mut worst = Duration::ZERO;
+    println!(
+        "{:<24} {:>9} {:>9} {:>7} {:>8} {:>8}  answers",
+        "scene", "limit ms", "at once", "count", "p99 ms", "worst"
+    );
+    for (name, draft) in SCENES {
+        let scene = cases::scene(draft());
+        println!("{name}: reading the body alone takes {:.1} ms", ms(reading(&scene)));
+        for limit in LIMITS_MS {
+            for clients in CLIENTS {
+                let row = Row::measure(address, &request(&scene, limit), clients, Duration::from_millis(limit));
+                println!("{name:<24} {limit:>9} {clients:>9} {row}");
+                worst = worst.max(row.worst());
+            }
+        }
+    }
+    let p99 = timer.stop();
+    println!("worst {:.1} ms; the timer's p99 {:.1} ms; at most 50 ms and that", ms(worst), ms(p99));
+    if worst <= GRACE + p99 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn ms(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// The value that 99 of 100 don't exceed.
+fn p99(sorted: &[Duration]) -> Duration {
+    sorted[(sorted.len() * 99).div_ceil(100).saturating_sub(1)]
+}
+
+/// A server that runs until this process ends.
+fn serve() -> SocketAddr {
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().expect("threads");
+    let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).expect("a free port");
+    let address = listener.local_addr().expect("bound");
+    thread::spawn(move || runtime.block_on(api::run(listener, ServerSettings::default(), core::future::pending())));
+    address
+}
+
+/// The fastest of some readings of the scene: the least disturbed one.
+fn reading(scene: &Scene) -> Duration {
+    let body = body(scene, 1000);
+    let run = |_| {
+        let started = Instant::now();
+        read_scene(&body, &RequestLimits::default()).expect("sound");
+        started.elapsed()
+    };
+    (0..5).map(run).min().expect("some runs")
+}
+
+fn body(scene: &Scene, limit: u64) -> Vec<u8> {
+    let mut body = serde_json::to_value(SceneBody::new(scene, None)).expect("JSON");
+    body["settings"] = json!({"time_limit_ms": limit});
+    body.to_string().into_bytes()
+}
+
+fn request(scene: &Scene, limit: u64) -> Vec<u8> {
+    let body = body(scene, limit);
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: ";
+    [format!("{head}{}\r\n\r\n", body.len()).as_bytes(), &body].concat()
+}
+
+/// The answers to one kind of request.
+struct Row {
+    lateness: Vec<Duration>,
+    words: BTreeMap<String, usize>,
+}
+
+impl Row {
+    fn measure(address: SocketAddr, request: &[u8], clients: usize, limit: Duration) -> Self {
+        let (together, rounds) = (Barrier::new(clients), ROW.as_millis() / limit.as_millis() + 1);
+        let client = || {
+            let mut connection = BufReader::new(TcpStream::connect(address).expect("the server listens"));
+            let round = |_| {
+                together.wait();
+                ask(&mut connection, request)
+            };
+            (0..rounds.min(MAX_ROUNDS)).map(round).collect::<Vec<_>>()
+        };
+        let answers: Vec<(Duration, String)> = thread::scope(|scope| {
+            let clients: Vec<_> = (0..clients).map(|_| scope.spawn(client)).collect();
+            clients.into_iter().flat_map(|client| client.join().expect("an answer")).collect()
+        });
+        let mut row = Self { lateness: Vec::new(), words: BTreeMap::new() };
+        for (taken, word) in answers {
+            row.lateness.push(taken.saturating_sub(limit));
+            *row.words.entry(word).or_default() += 1;
+        }
+        row.lateness.sort_unstable();
+        row
+    }
+
+    fn worst(&self) -> Duration {
+        self.lateness.last().copied().unwrap_or_default()
+    }
+}
+
+impl core::fmt::Display for Row {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let (count, p99, worst) = (self.lateness.len(), ms(p99(&self.lateness)), ms(self.worst()));
+        write!(f, "{count:>7} {p99:>8.1} {worst:>8.1} ")?;
+        self.words.iter().try_for_each(|(word, count)| write!(f, " {word} {count}"))
+    }
+}
+
+/// How long the answer took from the end of the sending, and its verdict, or its status where it is none.
+fn ask(connection: &mut BufReader<TcpStream>, request: &[u8]) -> (Duration, String) {
+    connection.get_mut().write_all(request).expect("sent");
+    let sent = Instant::now();
+    let mut head = String::new();
+    while !head.ends_with("\r\n\r\n") {
+        assert!(connection.read_line(&mut head).expect("a head") > 0, "the server hung up: {head}");
+    }
+    let length = head.lines().find_map(|line| line.strip_prefix("content-length: ")).expect("a length");
+    let mut body = vec![0; length.parse().expect("a number")];
+    connection.read_exact(&mut body).expect("a body");
+    let taken = sent.elapsed();
+    let body: Value = serde_json::from_slice(&body).expect("JSON");
+    let word = body["verdict"].as_str().map_or_else(|| format!("status {}", body["status"]), str::to_owned);
+    (taken, word)
+}
+
+/// Sleeps for a tick at a time and notes how much longer each sleep was.
+struct Timer {
+    stop: Arc<AtomicBool>,
+    thread: thread::JoinHandle<Vec<Duration>>,
+}
+
+impl Timer {
+    fn start() -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = Arc::clone(&stop);
+        let thread = thread::spawn(move || {
+            let mut lateness = Vec::new();
+            while !stopped.load(Ordering::Relaxed) {
+                let started = Instant::now();
+                thread::sleep(TICK);
+                lateness.push(started.elapsed().saturating_sub(TICK));
+            }
+            lateness
+        });
+        Self { stop, thread }
+    }
+
+    /// The 99th percentile of the lateness.
+    fn stop(self) -> Duration {
+        self.stop.store(true, Ordering::Relaxed);
+        let mut lateness = self.thread.join().expect("it counts only");
+        lateness.sort_unstable();
+        p99(&lateness)
+    }
+}

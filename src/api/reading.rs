@@ -1,0 +1,69 @@
+//! Reads bodies without holding up the threads that serve connections, nor any answer past its time.
+
+use std::sync::OnceLock;
+
+use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
+
+/// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond. Larger ones are read by
+/// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
+/// glance must do, a millisecond for a megabyte.
+const SMALL_BODY: usize = 16 * 1024;
+
+/// Reads a body.
+pub(super) type Read<R> = fn(&[u8], &RequestLimits) -> Result<R, Problem>;
+
+/// A body that has been read or will be.
+pub(super) struct Reading<R> {
+    body: Vec<u8>,
+    read: Read<R>,
+    limits: RequestLimits,
+    glance: Glance,
+    request: OnceLock<R>,
+}
+
+/// What is known of a request whose time is up.
+pub(super) enum Known<'a, R> {
+    /// All of it.
+    Request(&'a R),
+    /// It was too large to be read in time.
+    Glance(&'a Glance),
+}
+
+impl<R: AsRef<PlanRequest>> Reading<R> {
+    /// Read a small body, glance at a large one.
+    ///
+    /// # Errors
+    /// A problem with every fault of a small body.
+    pub(super) fn begin(body: Vec<u8>, read: Read<R>, limits: RequestLimits) -> Result<Self, Problem> {
+        if body.len() > SMALL_BODY {
+            let glance = Glance::at(&body, &limits);
+            return Ok(Self { body, read, limits, glance, request: OnceLock::new() });
+        }
+        let request = read(&body, &limits)?;
+        let known = request.as_ref();
+        let glance = Glance { scene_id: known.scene_id.clone(), target: None, time_limit: known.time_limit };
+        Ok(Self { body: Vec::new(), read, limits, glance, request: OnceLock::from(request) })
+    }
+
+    /// What can be told at once.
+    pub(super) fn glance(&self) -> &Glance {
+        &self.glance
+    }
+
+    /// The request, read now if it has not been.
+    ///
+    /// # Errors
+    /// A problem with every fault of the body.
+    pub(super) fn request(&self) -> Result<&R, Problem> {
+        if let Some(request) = self.request.get() {
+            return Ok(request);
+        }
+        let request = (self.read)(&self.body, &self.limits)?;
+        Ok(self.request.get_or_init(|| request))
+    }
+
+    /// As much as is known by now.
+    pub(super) fn known(&self) -> Known<'_, R> {
+        self.request.get().map_or(Known::Glance(&self.glance), Known::Request)
+    }
+}

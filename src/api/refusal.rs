@@ -1,0 +1,59 @@
+//! Heads that are no HTTP are refused by hyper itself, with a status and nothing else; here they get their problem.
+
+use crate::wire::{Problem, ProblemKind};
+
+use super::problem::PROBLEM_JSON;
+
+/// The problem, as a whole response, that stands for these bytes if they are a refusal without a body. Every refusal of
+/// our own has one.
+pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
+    let head = bytes.strip_suffix(b"\r\n\r\n").and_then(|head| core::str::from_utf8(head).ok())?;
+    let (status_line, fields) = head.split_once("\r\n")?;
+    let status = status_line.strip_prefix("HTTP/1.1 ").or_else(|| status_line.strip_prefix("HTTP/1.0 "))?.get(..3)?;
+    let (kind, detail) = match status {
+        "400" => (ProblemKind::MalformedHttp, "the request's head is not HTTP/1.1"),
+        "414" => (ProblemKind::UriTooLong, "no path of this service is so long"),
+        "431" => (ProblemKind::HeadTooLarge, "a head has at most 100 fields and 400 kB"),
+        _ => return None,
+    };
+    let kept: Vec<&str> = fields.split("\r\n").filter(|field| *field != "content-length: 0").collect();
+    if kept.len() == fields.split("\r\n").count() {
+        return None;
+    }
+    let body = serde_json::to_string(&Problem::new(kind, detail)).ok()?;
+    let kept = kept.join("\r\n");
+    let length = body.len();
+    let response =
+        format!("{status_line}\r\ncontent-type: {PROBLEM_JSON}\r\ncontent-length: {length}\r\n{kept}\r\n\r\n{body}");
+    Some(response.into_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::problem_for;
+
+    #[test]
+    fn an_empty_refusal_gets_a_body_and_keeps_its_other_fields() {
+        let bytes = b"HTTP/1.1 414 URI Too Long\r\nconnection: close\r\ncontent-length: 0\r\ndate: x\r\n\r\n";
+        let text = String::from_utf8(problem_for(bytes).unwrap()).unwrap();
+        let (head, body) = text.split_once("\r\n\r\n").unwrap();
+        let length = format!("content-length: {}", body.len());
+        let lines = ["content-type: application/problem+json", &length, "connection: close", "date: x"];
+        assert_eq!(head.split("\r\n").collect::<Vec<_>>(), [&["HTTP/1.1 414 URI Too Long"][..], &lines].concat());
+        assert!(body.contains("\"type\":\"urn:singulate:problem:uri_too_long\""));
+    }
+
+    #[test]
+    fn anything_else_goes_out_as_it_is() {
+        for text in [
+            "HTTP/1.1 200 OK\r\ncontent-length: 0\r\n\r\n",
+            "HTTP/1.1 400 Bad Request\r\ncontent-length: 2\r\n\r\n{}",
+            "HTTP/1.1 400 Bad Request\r\ncontent-length: 2\r\n\r\n",
+            "HTTP/1.1 4",
+            "{\"status\":\"HTTP/1.1 400\"}",
+            "",
+        ] {
+            assert_eq!(problem_for(text.as_bytes()), None, "{text}");
+        }
+    }
+}
