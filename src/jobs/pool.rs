@@ -55,6 +55,9 @@ impl core::fmt::Debug for Waiting {
     }
 }
 
+/// Searches descend once for each object of a set, some 1 kB a level; 10,000 objects fit. Only what is used takes memory.
+const STACK_BYTES: usize = 16 << 20;
+
 impl Pool {
     /// `threads` threads (one at the least), and room for `queue` jobs that wait for one.
     ///
@@ -67,7 +70,8 @@ impl Pool {
         for n in 0..threads.max(1) {
             let shared = Arc::clone(&shared);
             shared.lock().idle += 1;
-            let thread = std::thread::Builder::new().name(format!("plan-{n}")).spawn(move || shared.work())?;
+            let thread = std::thread::Builder::new().name(format!("plan-{n}")).stack_size(STACK_BYTES);
+            let thread = thread.spawn(move || shared.work())?;
             lock(&pool.threads).push(thread);
         }
         Ok(pool)

@@ -164,7 +164,6 @@ struct State {
     /// Per member whether it is ruled out in this branch.
     excluded: Vec<bool>,
     chosen: Vec<u32>,
-    visits: u32,
 }
 
 impl Component {
@@ -183,12 +182,8 @@ impl Component {
 
     /// `Err` with the bound reached if the budget ends first, or if `skip`.
     fn solve(&self, budget: &Budget<'_>, skip: bool) -> Result<Vec<Node>, usize> {
-        let mut state = State {
-            met: vec![0; self.landmarks.len()],
-            excluded: vec![false; self.nodes.len()],
-            chosen: Vec::new(),
-            visits: 0,
-        };
+        let mut state =
+            State { met: vec![0; self.landmarks.len()], excluded: vec![false; self.nodes.len()], chosen: Vec::new() };
         let mut limit = self.disjoint(&state).0;
         loop {
             if skip {
@@ -204,10 +199,7 @@ impl Component {
 
     /// True if at most `limit` more members meet what is left; they are then in `state.chosen`.
     fn descend(&self, state: &mut State, limit: usize, budget: &Budget<'_>) -> Result<bool, Interrupted> {
-        state.visits += 1;
-        if state.visits.is_multiple_of(64) {
-            budget.check()?;
-        }
+        budget.check()?;
         let (bound, smallest) = self.disjoint(state);
         let Some(smallest) = smallest else { return Ok(true) };
         if bound > limit {
