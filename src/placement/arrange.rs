@@ -174,6 +174,10 @@ impl Arranger<'_, '_> {
                     return Ok(None);
                 }
                 taken.push(at);
+                let (at, release) = match self.task.objective {
+                    Objective::FarFromTarget => (at, release),
+                    Objective::ShortMoves => self.table.pull_back(&candidates, object, rest, (at, release))?,
+                };
                 if let Some(done) = self.go_on(object, grasp, at, release, rest, extra)? {
                     return Ok(Some(done));
                 }

@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::borders::Border;
@@ -84,7 +84,21 @@ impl Candidates {
         candidates.add_table(layout);
         candidates.add_keep_outs(layout);
         candidates.add_obstacles(layout);
+        if wish.objective == Objective::ShortMoves {
+            candidates.add_spiral(layout);
+        }
         candidates
+    }
+
+    /// Places round the old one, the denser the nearer: a finger that comes by is satisfied with a step aside, and the
+    /// border of its shadow is none of the curves.
+    fn add_spiral(&mut self, layout: &Layout<'_>) {
+        let reach = 2.0 * layout.scene().gripper().corner_distance(self.radius);
+        for n in 1..=SPIRAL {
+            let (turn, apart) = (GOLDEN_ANGLE * f64::from(n), reach * f64::from(n) / f64::from(SPIRAL));
+            let aside = Vector2::new(libm::cos(turn), libm::sin(turn)) * apart;
+            self.add_place(self.origin + aside);
+        }
     }
 
     fn empty(layout: &Layout<'_>, wish: Wish) -> Self {
@@ -254,6 +268,11 @@ impl Candidates {
         places.into_iter().for_each(|at| self.add_place(at));
     }
 }
+
+/// How many places there are round the old one.
+const SPIRAL: u32 = 256;
+/// π(3 − √5): turns by it never line up.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// How many places are spread over the table.
 const SPREAD: u32 = 1024;

@@ -12,6 +12,9 @@ use crate::scene::{Disc, ObjectIndex, distance};
 /// What looking for a free yaw costs, in tried places.
 const GRASP_EFFORT: usize = 4;
 
+/// How often the way back is halved: to a hundredth of its length.
+const HALVINGS: usize = 7;
+
 /// A layout and what may still be tried on it.
 pub(super) struct Tabletop<'a, 'e> {
     pub(super) layout: Layout<'a>,
@@ -46,6 +49,26 @@ impl<'a, 'e> Tabletop<'a, 'e> {
             }
         }
         Ok(None)
+    }
+
+    /// A place as good as `place` that lies nearer to where the lifted object stood: halving finds where the way there
+    /// stops being free.
+    pub(super) fn pull_back(
+        &mut self,
+        candidates: &Candidates,
+        object: ObjectIndex,
+        rest: &[ObjectIndex],
+        place: (Point2<f64>, Grasp),
+    ) -> Result<(Point2<f64>, Grasp), Stop> {
+        let (mut free, mut blocked) = (place, self.layout.disc(object).centre);
+        for _ in 0..HALVINGS {
+            let middle = nalgebra::center(&free.0, &blocked);
+            match self.release(candidates, object, middle, rest)? {
+                Some(release) => free = (middle, release),
+                None => blocked = middle,
+            }
+        }
+        Ok(free)
     }
 
     /// How the lifted object can be released there, if it fits and every grasp still to come stays possible.

@@ -2,8 +2,9 @@
 
 use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate, varied};
-use singulate::plan::{Objective, Settings, Verdict, plan};
-use singulate::scene::{ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use singulate::plan::check::check;
+use singulate::plan::{Answer, Claim, Objective, Relocation, Settings, Statistics, Verdict, plan};
+use singulate::scene::{Disc, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
 fn verdict(draft: SceneDraft, objective: Objective) -> Verdict {
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
@@ -68,4 +69,59 @@ fn a_long_plan_on_a_wide_table_is_found() {
         assert_optimal(&verdict);
         assert!(matches!(verdict, Verdict::Relocate(plan) if plan.cost() == 79));
     }
+}
+
+/// Does the disc keep the 5 mm that the planner keeps where it can?
+fn keeps_preferred_gap(scene: &Scene, object: ObjectIndex, disc: &Disc) -> bool {
+    let gap = 0.005;
+    let apart = |other: ObjectIndex| disc.gap(&scene.object(other).disc()) >= gap + scene.gripper().margin();
+    scene.indices().filter(|&other| other != object).all(apart)
+        && scene.table().top().inner_gap(disc) >= gap
+        && scene.table().keep_out().iter().all(|area| area.outer_gap(disc) >= gap)
+}
+
+/// A move that the checker admits and that is no longer than `limit` (m), among 36 directions, 20 distances and 24 release
+/// yaws.
+fn shorter_move(scene: &Scene, verdict: &Verdict, step: &Relocation, limit: f64) -> Option<f64> {
+    let answer = Answer { verdict: verdict.clone(), statistics: Statistics::default() };
+    let stated = Claim::of(scene, &answer);
+    let plan_only = Claim { lower_bound: None, optimal: None, landmarks: None, ..stated };
+    (1..=20).map(|n| limit * f64::from(n) / 20.0).find(|&distance| {
+        (0..36).map(|n| core::f64::consts::TAU * f64::from(n) / 36.0).any(|angle| {
+            let to = step.from + distance * nalgebra::Vector2::new(libm::cos(angle), libm::sin(angle));
+            let disc = scene.object(step.object).disc().at(to);
+            keeps_preferred_gap(scene, step.object, &disc)
+                && (0..24).any(|n| {
+                    let mut claim = plan_only.clone();
+                    let moved = &mut claim.relocations.as_mut().unwrap()[0];
+                    (moved.to, moved.gap, moved.release.slack) = (to, None, None);
+                    moved.release.yaw = scene.gripper().period() * f64::from(n) / 24.0;
+                    claim.target_grasp.as_mut().unwrap().slack = None;
+                    check(scene, &claim, &Budget::unlimited()).faults.is_empty()
+                })
+        })
+    })
+}
+
+#[test]
+fn no_short_move_is_much_longer_than_sampling_finds() {
+    let mut seen = 0;
+    for seed in 0..200 {
+        let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
+        let settings = Settings { objective: Objective::ShortMoves };
+        let verdict = plan(&scene, &settings, &Budget::unlimited()).unwrap().verdict;
+        let Verdict::Relocate(found) = &verdict else { continue };
+        let [step] = found.relocations[..] else { continue };
+        let (moved, own) = ((step.to - step.from).norm(), scene.object(step.object).disc());
+        if step.gap >= 0.005 + scene.gripper().margin() && scene.table().top().inner_gap(&own.at(step.to)) >= 0.005 {
+            let limit = (0.8 * moved - 0.002).max(0.0);
+            assert_eq!(
+                shorter_move(&scene, &verdict, &step, limit).filter(|_| limit > 0.0),
+                None,
+                "seed {seed}: moved {moved} m"
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 10, "{seen} plans with one roomy move");
 }
