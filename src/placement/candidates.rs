@@ -270,7 +270,7 @@ impl Candidates {
 }
 
 /// How many places there are round the old one.
-const SPIRAL: u32 = 256;
+const SPIRAL: u32 = 512;
 /// π(3 − √5): turns by it never line up.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
