@@ -36,13 +36,18 @@ impl KnowledgeBase {
         base.members.reserve_exact(self.size());
         base.first_member.reserve_exact(self.rules());
         for here in position {
-            for rule in here.into_iter().flat_map(|here| self.rules_of(here)) {
-                base.members.extend_from_slice(self.body(rule));
-                base.first_member.push(offset(base.members.len()));
-            }
-            base.first_rule.push(offset(base.rules()));
+            base.push_same(self, here);
         }
         base
+    }
+
+    /// Add the next object with the options that `object` has in another base, or with none.
+    pub(super) fn push_same(&mut self, other: &Self, object: Option<ObjectIndex>) {
+        for rule in object.into_iter().flat_map(|object| other.rules_of(object)) {
+            self.members.extend_from_slice(other.body(rule));
+            self.first_member.push(offset(self.members.len()));
+        }
+        self.first_rule.push(offset(self.rules()));
     }
 
     /// The number of objects.

@@ -12,4 +12,4 @@ pub use base::KnowledgeBase;
 pub use closure::{Closure, close};
 pub use lock::{Lock, lock};
 pub use options::{Blocker, minimal_options};
-pub use scene_base::{MAX_BASE_SIZE, NoBase, complete, fixed_blockers, relevant};
+pub use scene_base::{MAX_BASE_SIZE, NoBase, complete, completed, fixed_blockers, relevant};

@@ -32,10 +32,24 @@ impl From<Interrupted> for NoBase {
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
 pub fn complete(scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+    let nothing: KnowledgeBase = scene.indices().map(|_| Vec::new()).collect();
+    completed(scene, &nothing, budget)
+}
+
+/// The base of every movable object, given the part of it that [`relevant`] found.
+///
+/// # Errors
+/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+pub fn completed(scene: &Scene, part: &KnowledgeBase, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
     let mut base = KnowledgeBase::new();
     for object in scene.indices() {
         budget.check()?;
-        base.push(options(scene, object));
+        // A movable object that was looked at has an option: to move all that blocks it.
+        if part.rules_of(object).is_empty() {
+            base.push(options(scene, object));
+        } else {
+            base.push_same(part, Some(object));
+        }
         if base.size() > MAX_BASE_SIZE {
             return Err(NoBase::TooLarge);
         }

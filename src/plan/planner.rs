@@ -7,7 +7,7 @@ use super::confirm::{PlanError, confirm};
 use super::couple::{Question, arrange_least, arrange_one};
 use super::settings::Settings;
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{Closure, KnowledgeBase, Lock, NoBase, close, complete, fixed_blockers, lock, relevant};
+use crate::knowledge::{Closure, KnowledgeBase, Lock, NoBase, close, completed, fixed_blockers, lock, relevant};
 use crate::placement::{Arrangement, grasp_in_place};
 use crate::scene::Scene;
 use crate::search::{LeastSet, Outcome, Restriction, least};
@@ -56,7 +56,7 @@ impl Planner<'_> {
         let outcome = least(&base, target, &Restriction::default(), &search_budget);
         self.statistics.search = self.since(started);
         match outcome {
-            Outcome::Underivable => self.deadlock(),
+            Outcome::Underivable => self.deadlock(&base),
             Outcome::Interrupted(None) => Ok(Verdict::TimedOut(Unplanned::default())),
             Outcome::Interrupted(Some(known)) => Ok(self.place(&base, known, false)),
             Outcome::Least(known) => Ok(self.place(&base, known, true)),
@@ -67,11 +67,11 @@ impl Planner<'_> {
         self.budget.elapsed().saturating_sub(started)
     }
 
-    fn deadlock(&mut self) -> Result<Verdict, PlanError> {
+    fn deadlock(&mut self, relevant: &KnowledgeBase) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
         let budget = self.budget.share(PLACEMENT_SHARE);
         // The relevant part of the base would show a lock, but not the greatest.
-        let found = complete(self.scene, &budget).and_then(|base| {
+        let found = completed(self.scene, relevant, &budget).and_then(|base| {
             let closure = close(&base, |_| false, &budget)?;
             Ok(greatest_lock(self.scene, &base, &closure, &budget)?)
         });
