@@ -11,14 +11,15 @@ use std::fs;
 use std::process::{Command, ExitCode};
 
 use singulate::budget::Budget;
+use singulate::experiments::Recipe;
 use singulate::plan::{PlanError, Verdict, plan};
-use singulate::scene::{ObjectDraft, SceneDraft};
+use singulate::scene::{ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 
 const MAX_PEAK_KB: u64 = 100_000;
 type Case = (&'static str, fn() -> SceneDraft);
 
-const CASES: [Case; 8] = [
+const CASES: [Case; 9] = [
     ("10,000 dishes at 45 %", || cases::equal_density(10_000, 0)),
     ("10,000 dishes at 45 %, the deepest target", || deepest(cases::equal_density(10_000, 0))),
     ("a pressed cluster of 1,000", || hard::pressed(1000, 0)),
@@ -27,6 +28,7 @@ const CASES: [Case; 8] = [
     ("10,000 crumbs, a clearance of 7 mm", || hard::crumbs(2.0, 0.007)),
     ("10,000 crumbs, a clearance of 16.5 mm", || hard::crumbs(4.0, 0.0165)),
     ("a plate among crumbs", plate_among_crumbs),
+    ("a plate that has to move among crumbs", plate_to_move),
 ];
 
 fn main() -> ExitCode {
@@ -91,7 +93,7 @@ fn json(draft: &SceneDraft) -> String {
     let object = |object: &ObjectDraft| {
         let id = object.id.as_deref().expect("an id");
         let (x, y, radius) = (number(object.x), number(object.y), number(object.radius));
-        format!(r#"{{"id":"{id}","x":{x},"y":{y},"radius":{radius}}}"#)
+        format!(r#"{{"id":"{id}","x":{x},"y":{y},"radius":{radius},"fixed":{}}}"#, object.fixed)
     };
     let objects: Vec<String> = draft.objects.iter().map(object).collect();
     let (top, gripper) = (&draft.table.top, &draft.gripper);
@@ -122,4 +124,35 @@ fn plate_among_crumbs() -> SceneDraft {
     draft.objects.push(plate);
     draft.target = Some("plate".into());
     draft
+}
+
+/// A plate of two metres that has to leave, and some 8,900 crumbs on the rest of the table: it may stand beside any of them.
+fn plate_to_move() -> SceneDraft {
+    let disc = |id: String, (x, y): (f64, f64), radius: f64, fixed: bool| ObjectDraft {
+        id: Some(id),
+        x: Some(x),
+        y: Some(y),
+        radius: Some(radius),
+        fixed,
+    };
+    let (cup, plate) = ((3.0, 3.0), (4.035, 3.0));
+    let mut objects = vec![
+        disc("cup".into(), cup, 0.03, false),
+        disc("plate".into(), plate, 1.0, false),
+        disc("post-0".into(), (2.955, 3.078), 0.05, true),
+        disc("post-1".into(), (2.955, 2.922), 0.05, true),
+    ];
+    let apart = |(x, y): (f64, f64), from: (f64, f64)| {
+        let (x, y) = (x - from.0, y - from.1);
+        (x * x + y * y).sqrt()
+    };
+    for n in 0..10_000_u32 {
+        let at = (0.03 + 0.062 * f64::from(n % 100), 0.03 + 0.062 * f64::from(n / 100));
+        if apart(at, plate) > 1.12 && apart(at, cup) > 0.25 {
+            objects.push(disc(format!("crumb-{n}"), at, 0.002, false));
+        }
+    }
+    let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(6.2), y_max: Some(6.2) };
+    let table = TableDraft { top, keep_out: Vec::new() };
+    SceneDraft { table, gripper: Recipe::default().gripper, objects, target: Some("cup".into()) }
 }

@@ -91,7 +91,8 @@ fn widened(shadow: &ArcSet, width: f64) -> Option<Vec<(f64, f64)>> {
     let wrap = |yaw: f64| if yaw >= period { yaw - period } else { yaw };
     let next = gaps.iter().cycle().skip(1);
     let arcs = gaps.iter().zip(next).map(|(gap, next)| {
-        let start = wrap(gap.start + gap.width - width / 2.0);
+        // By its distance from the end before it: where a gap is just wide enough, rounding must not swap the two.
+        let start = wrap(wrap(gap.start + width / 2.0) + (gap.width - width));
         let end = wrap(next.start + width / 2.0);
         (start, end)
     });
@@ -133,6 +134,18 @@ mod tests {
         let shadows = [vec![(0.0, 1.0)], vec![(1.25, 2.0)]];
         assert_eq!(options(&shadows, 0.25), [Vec::<usize>::new()]);
         assert_eq!(options(&shadows, 0.251), [vec![0], vec![1]]);
+    }
+
+    #[test]
+    fn a_gap_that_is_just_wide_enough_is_the_only_one() {
+        for n in 0..1000_u32 {
+            // One shadow leaves a single gap, and the other covers it.
+            let (start, length) = (1e-3 * f64::from(n), 1.3);
+            let gap = (start + length, start + PERIOD);
+            let shadows = [vec![(start, gap.0)], vec![(gap.0 - 0.05, gap.1 + 0.05)]];
+            let width = blockers(&shadows)[0].shadow.widest_free().map(|gap| gap.width).unwrap();
+            assert_eq!(options(&shadows, width), [vec![0], vec![1]], "{gap:?}");
+        }
     }
 
     proptest! {

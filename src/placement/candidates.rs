@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 use super::borders::Border;
 use super::layout::Layout;
-use super::{INSIDE, Objective};
+use super::{INSIDE, Objective, scatter};
 use crate::budget::{Budget, Interrupted};
 use crate::scene::{Disc, ObjectIndex, distance};
 
@@ -94,11 +94,7 @@ impl Candidates {
     /// border of its shadow is none of the curves.
     fn add_spiral(&mut self, layout: &Layout<'_>) {
         let reach = 2.0 * layout.scene().gripper().corner_distance(self.radius);
-        for n in 1..=SPIRAL {
-            let (turn, apart) = (GOLDEN_ANGLE * f64::from(n), reach * f64::from(n) / f64::from(SPIRAL));
-            let aside = Vector2::new(libm::cos(turn), libm::sin(turn)) * apart;
-            self.add_place(self.origin + aside);
-        }
+        scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
     }
 
     fn empty(layout: &Layout<'_>, wish: Wish) -> Self {
@@ -125,13 +121,8 @@ impl Candidates {
     pub(super) fn spread(layout: &Layout<'_>, wish: Wish) -> Self {
         let mut candidates = Self::empty(layout, wish);
         let top = layout.scene().table().top();
-        let keep = candidates.radius + wish.edge_gap + INSIDE;
-        let (min, size) = (top.min(), top.max() - top.min());
-        for n in 1..=SPREAD {
-            let (x, y) = (radical_inverse(n, 2), radical_inverse(n, 3));
-            let inner = |share: f64, size: f64| keep + share * (size - 2.0 * keep);
-            candidates.add_place(Point2::new(min.x + inner(x, size.x), min.y + inner(y, size.y)));
-        }
+        let inset = Vector2::repeat(candidates.edge());
+        scatter::even(top.min() + inset, top.max() - inset).for_each(|at| candidates.add_place(at));
         candidates
     }
 
@@ -266,24 +257,22 @@ impl Candidates {
             }
         }
         places.into_iter().for_each(|at| self.add_place(at));
+        if self.heap.len() > MANY {
+            self.forget_worst();
+        }
+    }
+
+    /// Round a large disc among thousands of crumbs there are millions of places; more than effort can try need no memory.
+    fn forget_worst(&mut self) {
+        let places = self.heap.iter().filter(|entry| entry.kind == Kind::Place);
+        let mut scores: Vec<f64> = places.map(|entry| entry.score).collect();
+        if scores.len() > MANY {
+            let worst = scores.len() - MANY / 2;
+            let bound = *scores.select_nth_unstable_by(worst, f64::total_cmp).1;
+            self.heap.retain(|entry| entry.kind != Kind::Place || entry.score > bound);
+        }
     }
 }
 
-/// How many places there are round the old one.
-const SPIRAL: u32 = 512;
-/// π(3 − √5): turns by it never line up.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-
-/// How many places are spread over the table.
-const SPREAD: u32 = 1024;
-
-/// The digits of `n` mirrored at the point: Halton's sequence, evenly spread at any length.
-fn radical_inverse(mut n: u32, base: u32) -> f64 {
-    let (mut result, mut digit) = (0.0, 1.0 / f64::from(base));
-    while n > 0 {
-        result += f64::from(n % base) * digit;
-        n /= base;
-        digit /= f64::from(base);
-    }
-    result
-}
+/// So many places are cut down to the better half.
+const MANY: usize = 1 << 17;

@@ -9,6 +9,7 @@ mod candidates;
 mod curves;
 mod effort;
 mod layout;
+mod scatter;
 mod tabletop;
 
 pub use arrange::{Arrangement, Task, arrange};

@@ -6,7 +6,8 @@ use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Alternatives, Derivation};
 
-/// The effort for one answer: half a second, reached only where space is very short.
+/// The effort for one answer, reached only where space is very short: half a second, or some seconds where a large disc
+/// stands among thousands of small ones.
 const MAX_EFFORT: u32 = 1_000_000;
 /// The effort for one set, so that others get their turn.
 const MAX_EFFORT_PER_SET: u32 = 100_000;

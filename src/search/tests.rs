@@ -139,6 +139,9 @@ proptest! {
             Outcome::Least(found) | Outcome::Interrupted(Some(found)) => {
                 let expected = expected.expect("derivable") as usize;
                 prop_assert!(found.bound <= expected && expected <= found.derivation.order.len());
+                let mask = |set: &[ObjectIndex]| set.iter().fold(0_u32, |mask, object| mask | 1 << object.get());
+                prop_assert!(follows(&options, 0, mask(&found.derivation.order)));
+                prop_assert!(found.landmarks.iter().all(|landmark| !follows(&options, 0, !mask(landmark))));
             }
         }
     }

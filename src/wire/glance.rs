@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use super::request::{MAX_SCENE_ID_LENGTH, RequestLimits};
 
-/// What a glance at a planning or verification request shows. What is wrong with a field is for the reader to say; here it
-/// counts as absent.
+/// What a glance at a planning or verification request shows. What is wrong with it is for the reader to say; here a body with
+/// a field of a wrong type, or one that is there twice, shows nothing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Glance {
     /// The caller's name for the scene.
