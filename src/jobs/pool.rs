@@ -55,7 +55,7 @@ impl core::fmt::Debug for Waiting {
     }
 }
 
-/// Searches descend once for each object of a set, some 1 kB a level; 10,000 objects fit. Only what is used takes memory.
+/// Searches descend a level, of about 1 kB, for each object of a set. Only what is used takes memory.
 const STACK_BYTES: usize = 16 << 20;
 
 impl Pool {

@@ -98,10 +98,15 @@ impl Arranger<'_, '_> {
         Ok(None)
     }
 
+    /// The first of the remaining objects that can be grasped, one more than the width at the most: all that is asked is
+    /// whether there are more.
     fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
         let mut graspable = Vec::new();
         for &object in remaining {
             graspable.extend(self.table.grasp(object)?.map(|grasp| (object, grasp)));
+            if graspable.len() > self.width {
+                break;
+            }
         }
         Ok(graspable)
     }

@@ -11,10 +11,13 @@ use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::borders::Border;
+use super::effort::{Meter, Stop};
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
-use crate::budget::{Budget, Interrupted};
 use crate::scene::{Disc, ObjectIndex, distance};
+
+/// How many places cost as much to come up with as one costs to try.
+const PLACES_PER_EFFORT: usize = 32;
 
 /// What a place must keep, and what makes it good.
 #[derive(Debug, Clone, Copy)]
@@ -129,13 +132,10 @@ impl Candidates {
     /// The next best place. Whether it is free is for the caller to see.
     ///
     /// # Errors
-    /// [`Interrupted`] when the budget ends: many borders may be expanded before the next place comes up.
-    pub(super) fn next(
-        &mut self,
-        layout: &Layout<'_>,
-        budget: &Budget<'_>,
-    ) -> Result<Option<Point2<f64>>, Interrupted> {
+    /// [`Stop`] when effort or budget end: many borders may be expanded before the next place comes up.
+    pub(super) fn next(&mut self, layout: &Layout<'_>, meter: &mut Meter<'_>) -> Result<Option<Point2<f64>>, Stop> {
         while let Some(entry) = self.heap.pop() {
+            let before = self.heap.len();
             match entry.kind {
                 Kind::Place => return Ok(Some(entry.at)),
                 Kind::Obstacle(object) => {
@@ -151,7 +151,8 @@ impl Candidates {
                     self.expand(layout, &border, middle, border.farthest(middle));
                 }
             }
-            budget.check()?;
+            meter.spend(self.heap.len().saturating_sub(before) / PLACES_PER_EFFORT)?;
+            meter.look()?;
         }
         Ok(None)
     }

@@ -62,18 +62,16 @@ impl<'e> Meter<'e> {
         Self { effort, budget, unwatched: 0 }
     }
 
-    pub(super) fn budget(&self) -> &'e Budget<'e> {
-        self.budget
+    /// Look at the budget now.
+    pub(super) fn look(&mut self) -> Result<(), Stop> {
+        self.unwatched = 0;
+        Ok(self.budget.check()?)
     }
 
     pub(super) fn spend(&mut self, effort: usize) -> Result<(), Stop> {
         let left = u32::try_from(effort).ok().and_then(|effort| self.effort.left.checked_sub(effort));
         self.effort.left = left.ok_or(Stop::Spent)?;
         self.unwatched += effort;
-        if self.unwatched >= BEAT {
-            self.unwatched = 0;
-            self.budget.check()?;
-        }
-        Ok(())
+        if self.unwatched >= BEAT { self.look() } else { Ok(()) }
     }
 }

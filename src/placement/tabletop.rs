@@ -41,7 +41,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         rest: &[ObjectIndex],
         skip: impl Fn(Point2<f64>) -> bool,
     ) -> Result<Option<(Point2<f64>, Grasp)>, Stop> {
-        while let Some(at) = candidates.next(&self.layout, self.meter.budget())? {
+        while let Some(at) = candidates.next(&self.layout, &mut self.meter)? {
             if !skip(at)
                 && let Some(release) = self.release(candidates, object, at, rest)?
             {

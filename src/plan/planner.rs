@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
+use super::check::{Fault, FaultCode, Report};
 use super::confirm::{PlanError, confirm};
 use super::couple::{Question, arrange_least, arrange_one};
 use super::settings::Settings;
@@ -50,7 +51,7 @@ impl Planner<'_> {
             Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
         };
         if base.options(target).any(<[_]>::is_empty) {
-            return Ok(graspable_now(self.scene));
+            return graspable_now(self.scene);
         }
         let started = self.budget.elapsed();
         let outcome = least(&base, target, &Restriction::default(), &search_budget);
@@ -105,9 +106,19 @@ impl Planner<'_> {
 }
 
 /// The grasp of a target that knowledge says is graspable as the table stands.
-pub(super) fn graspable_now(scene: &Scene) -> Verdict {
-    let grasp = grasp_in_place(scene, scene.target());
-    grasp.map_or_else(|| Verdict::TimedOut(Unplanned::default()), Verdict::Graspable)
+///
+/// # Errors
+/// [`PlanError::Refused`] if no yaw is free: then knowledge and geometry contradict each other, a bug.
+pub(super) fn graspable_now(scene: &Scene) -> Result<Verdict, PlanError> {
+    grasp_in_place(scene, scene.target()).map(Verdict::Graspable).ok_or_else(|| {
+        let fault = Fault {
+            code: FaultCode::TargetBlocked,
+            step: None,
+            object: Some(scene.object(scene.target()).id().to_owned()),
+            detail: "said to be graspable as the table stands, but no yaw is free".to_owned(),
+        };
+        PlanError::Refused(Report { faults: vec![fault], ..Report::default() })
+    })
 }
 
 /// Why the target, which does not follow, does not: from the complete base and its closure.

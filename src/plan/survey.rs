@@ -68,7 +68,7 @@ impl Surveyor<'_> {
             return self.deadlock(&scene, budget);
         }
         let verdict = if self.base.options(object).any(<[_]>::is_empty) {
-            graspable_now(&scene)
+            graspable_now(&scene)?
         } else {
             self.derive(object, budget)
         };
