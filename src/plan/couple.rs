@@ -11,8 +11,8 @@ use crate::search::{Alternatives, Derivation};
 const MAX_EFFORT: u32 = 1_000_000;
 /// The effort for one set, so that others get their turn.
 const MAX_EFFORT_PER_SET: u32 = 100_000;
-/// What each relocation adds to that: a long plan has many places to find, each among those found before.
-const EFFORT_PER_STEP: u32 = 5_000;
+/// What each relocation adds to both: a long plan has many places to find, each among those found before.
+const EFFORT_PER_STEP: u32 = 10_000;
 /// How many more relocations than the least set has are tried.
 const MAX_EXTRA: usize = 3;
 /// How many sets are tried.
@@ -39,7 +39,7 @@ pub(super) fn arrange_least(
     let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
     let mut tried: Vec<Vec<ObjectIndex>> = Vec::new();
     let mut next = alternatives.next(budget)?;
-    let mut effort = Effort::new(MAX_EFFORT);
+    let mut effort = Effort::new(MAX_EFFORT.saturating_add(for_steps(cheapest)));
     for cost in cheapest..=cheapest + MAX_EXTRA {
         let smaller = tried.len();
         while tried.len() < MAX_SETS
@@ -72,10 +72,9 @@ fn attempt(
     effort: &mut Effort,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    let steps = u32::try_from(cost).unwrap_or(u32::MAX);
     for objective in [question.objective, question.objective.other()] {
         let task = Task { scene: question.scene, set, extra: cost - set.len(), objective };
-        let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(EFFORT_PER_STEP.saturating_mul(steps)));
+        let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(cost)));
         let found = arrange(&task, &mut part, budget)?;
         effort.join(part);
         if found.is_some() {
@@ -94,5 +93,9 @@ pub(super) fn arrange_one(
     set: &[ObjectIndex],
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    attempt(question, set, set.len(), &mut Effort::new(MAX_EFFORT), budget)
+    attempt(question, set, set.len(), &mut Effort::new(MAX_EFFORT.saturating_add(for_steps(set.len()))), budget)
+}
+
+fn for_steps(steps: usize) -> u32 {
+    EFFORT_PER_STEP.saturating_mul(u32::try_from(steps).unwrap_or(u32::MAX))
 }
