@@ -35,11 +35,9 @@ fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
             .map(|options| options.iter().map(|option| option.iter().map(|id| index[id.as_str()]).collect()).collect())
             .collect();
         let target = index[case.target.as_str()];
-        let started = std::time::Instant::now();
         match least(&base, target, &Restriction::default(), &Budget::unlimited()) {
             Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
             Outcome::Least(found) => {
-                eprintln!("{} {:?} {} landmarks {}", case.name, started.elapsed(), found.bound, found.landmarks.len());
                 assert_eq!(Some(found.bound), case.expected.relocations, "{}", case.name);
                 assert_eq!(found.derivation.order.len(), found.bound, "{}", case.name);
                 for landmark in &found.landmarks {
