@@ -158,39 +158,46 @@ impl Arranger<'_, '_> {
         rest: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
-        let disc = self.table.layout.disc(object);
-        let mut taken: Vec<Point2<f64>> = Vec::new();
+        for (at, release) in self.places(object, rest)? {
+            if let Some(done) = self.go_on(object, grasp, at, release, rest, extra)? {
+                return Ok(Some(done));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The best places for `object`, as many as the width admits. They are found before any is tried: candidates take
+    /// memory by the size of the scene, and a plan may be hundreds of steps deep.
+    fn places(&mut self, object: ObjectIndex, rest: &[ObjectIndex]) -> Result<Vec<(Point2<f64>, Grasp)>, Stop> {
+        let radius = self.table.layout.disc(object).radius;
+        let mut places: Vec<(Point2<f64>, Grasp)> = Vec::new();
         self.table.layout.lift(object, true);
         for (preferred, spread) in [(PREFERRED_GAP, false), (0.0, false), (0.0, true)] {
+            if places.len() >= self.width {
+                break;
+            }
             let wish = self.wish(object, preferred);
             let mut candidates = if spread {
                 Candidates::spread(&self.table.layout, wish)
             } else {
                 Candidates::new(&self.table.layout, wish)
             };
-            // A place next to one that led nowhere leads nowhere either.
-            let near = |taken: &[Point2<f64>], at| taken.iter().any(|&other| distance(other, at) < disc.radius);
-            while let Some((at, release)) =
-                self.table.next_place(&mut candidates, object, rest, |at| near(&taken, at))?
+            // Where one place leads nowhere, one next to it leads nowhere either.
+            let near =
+                |places: &[(Point2<f64>, Grasp)], at| places.iter().any(|(other, _)| distance(*other, at) < radius);
+            while places.len() < self.width
+                && let Some(place) = self.table.next_place(&mut candidates, object, rest, |at| near(&places, at))?
             {
-                if taken.len() >= self.width {
-                    self.truncated = true;
-                    self.table.layout.lift(object, false);
-                    return Ok(None);
-                }
-                taken.push(at);
-                let (at, release) = match self.task.objective {
-                    Objective::FarFromTarget => (at, release),
-                    Objective::ShortMoves => self.table.pull_back(&candidates, object, rest, (at, release))?,
-                };
-                if let Some(done) = self.go_on(object, grasp, at, release, rest, extra)? {
-                    return Ok(Some(done));
-                }
-                self.table.layout.lift(object, true);
+                places.push(match self.task.objective {
+                    Objective::FarFromTarget => place,
+                    Objective::ShortMoves => self.table.pull_back(&candidates, object, rest, place)?,
+                });
             }
         }
         self.table.layout.lift(object, false);
-        Ok(None)
+        // Whether there are more is not asked.
+        self.truncated |= places.len() >= self.width;
+        Ok(places)
     }
 
     fn go_on(
@@ -204,7 +211,6 @@ impl Arranger<'_, '_> {
     ) -> Result<Option<Arrangement>, Stop> {
         let disc = self.table.layout.disc(object);
         let gap = self.table.layout.gap(object, &disc.at(to));
-        self.table.layout.lift(object, false);
         let before = self.table.layout.put(object, to);
         self.relocations.push(Relocation { object, from: disc.centre, to, grasp, release, gap });
         let done = self.step(rest, extra)?;
