@@ -13,13 +13,13 @@ use std::process::{Command, ExitCode};
 use singulate::budget::Budget;
 use singulate::experiments::Recipe;
 use singulate::plan::{PlanError, Verdict, plan};
-use singulate::scene::{ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 
 const MAX_PEAK_KB: u64 = 100_000;
 type Case = (&'static str, fn() -> SceneDraft);
 
-const CASES: [Case; 9] = [
+const CASES: [Case; 10] = [
     ("10,000 dishes at 45 %", || cases::equal_density(10_000, 0)),
     ("10,000 dishes at 45 %, the deepest target", || deepest(cases::equal_density(10_000, 0))),
     ("a pressed cluster of 1,000", || hard::pressed(1000, 0)),
@@ -29,6 +29,7 @@ const CASES: [Case; 9] = [
     ("10,000 crumbs, a clearance of 16.5 mm", || hard::crumbs(4.0, 0.0165)),
     ("a plate among crumbs", plate_among_crumbs),
     ("a plate that has to move among crumbs", plate_to_move),
+    ("a plan of 299 steps among 9,900 objects", stair),
 ];
 
 fn main() -> ExitCode {
@@ -155,4 +156,38 @@ fn plate_to_move() -> SceneDraft {
     let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(6.2), y_max: Some(6.2) };
     let table = TableDraft { top, keep_out: Vec::new() };
     SceneDraft { table, gripper: Recipe::default().gripper, objects, target: Some("cup".into()) }
+}
+
+/// A stair on whose steps each disc can only be gripped along the way to the next one, which stands in that way; crumbs
+/// that can't be moved keep the fingers from all other yaws. Beside it a field of discs that nothing hinders.
+fn stair() -> SceneDraft {
+    let disc = |id: String, x: f64, y: f64, radius: f64, fixed: bool| ObjectDraft {
+        id: Some(id),
+        x: Some(x),
+        y: Some(y),
+        radius: Some(radius),
+        fixed,
+    };
+    let step = |n: u32| {
+        let (x, y) = (0.12 * f64::from(n.div_ceil(2)), 0.12 * f64::from(n / 2));
+        let crumbs = [(0.06, 0.0), (0.0425, 0.0425), (0.0425, -0.0425)].into_iter().zip(0..).map(move |(crumb, at)| {
+            let (dx, dy) = if n.is_multiple_of(2) { (crumb.1, crumb.0) } else { crumb };
+            disc(format!("crumb-{n}-{at}"), x + dx, y + dy, 0.005, true)
+        });
+        core::iter::once(disc(format!("step-{n}"), x, y, 0.05, false)).chain(crumbs)
+    };
+    let far = |n: u32| disc(format!("far-{n}"), 20.0 + 0.3 * f64::from(n % 94), 0.3 * f64::from(n / 94), 0.05, false);
+    let top = RectangleDraft { x_min: Some(-1.0), y_min: Some(-1.0), x_max: Some(50.0), y_max: Some(30.0) };
+    let gripper = GripperDraft {
+        fingers: Some(2.0),
+        finger_width: Some(0.06),
+        clearance: Some(0.03),
+        ..Recipe::default().gripper
+    };
+    SceneDraft {
+        table: TableDraft { top, keep_out: Vec::new() },
+        gripper,
+        objects: (0..300).flat_map(step).chain((0..8700).map(far)).collect(),
+        target: Some("step-0".into()),
+    }
 }
