@@ -6,13 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms, lowest first: each may name those before it, none may name one after it.
-const ROOMS: [&str; 15] = [
+const ROOMS: [&str; 16] = [
     "budget",
     "scene",
     "geometry",
     "knowledge",
     "search",
     "placement",
+    "paper",
     "plan",
     "experiments",
     "render",
@@ -23,7 +24,7 @@ const ROOMS: [&str; 15] = [
     "config",
     "cli",
 ];
-const PURE: [&str; 7] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "plan"];
+const PURE: [&str; 8] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "paper", "plan"];
 /// What no pure room may name: I/O, clocks, environment, threads, randomness, serialisation, the web.
 const IMPURE: [&str; 22] = [
     "serde",
