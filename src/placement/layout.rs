@@ -2,13 +2,14 @@
 
 use nalgebra::Point2;
 
-use crate::geometry::{ArcSet, Grasp, shadow, widest_grasp};
+use crate::geometry::{ArcSet, Grasp, Shadow, widest_grasp};
 use crate::scene::{Disc, ObjectIndex, Scene};
 
 /// The scene after some moves, with some objects lifted off the table.
 #[derive(Debug, Clone)]
 pub(super) struct Layout<'a> {
     scene: &'a Scene,
+    model: Shadow,
     /// Per object its new place, if it was moved.
     place: Vec<Option<Point2<f64>>>,
     moved: Vec<ObjectIndex>,
@@ -16,9 +17,9 @@ pub(super) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
+    pub(super) fn new(scene: &'a Scene, model: Shadow) -> Self {
         let count = scene.objects().len();
-        Self { scene, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
+        Self { scene, model, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
     }
 
     pub(super) fn scene(&self) -> &'a Scene {
@@ -74,7 +75,7 @@ impl<'a> Layout<'a> {
         let shadows: Vec<ArcSet> = self
             .near(disc.centre, reach)
             .filter(|(other, _)| *other != object)
-            .map(|(_, obstacle)| shadow(gripper, disc, &obstacle, extra))
+            .map(|(_, obstacle)| (self.model)(gripper, disc, &obstacle, extra))
             .collect();
         ArcSet::union(gripper.period(), &shadows)
     }

@@ -15,7 +15,7 @@ mod tabletop;
 pub use arrange::{Arrangement, Task, arrange};
 pub use effort::Effort;
 
-use crate::geometry::Grasp;
+use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene};
 use nalgebra::Point2;
 
@@ -58,8 +58,8 @@ pub struct Relocation {
 }
 
 /// How an object can be grasped as the table stands.
-pub fn grasp_in_place(scene: &Scene, object: ObjectIndex) -> Option<Grasp> {
-    layout::Layout::new(scene).grasp(object)
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
+    layout::Layout::new(scene, model).grasp(object)
 }
 
 /// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.
