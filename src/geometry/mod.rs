@@ -10,4 +10,4 @@ mod shadow;
 pub use arcs::{Arc, ArcSet, FreeInterval};
 pub use finger::{BlockedOffsets, SweptFinger};
 pub use grasp::{Grasp, widest_grasp};
-pub use shadow::shadow;
+pub use shadow::{Shadow, shadow};

@@ -4,6 +4,10 @@ use super::arcs::ArcSet;
 use super::finger::{BlockedOffsets, SweptFinger};
 use crate::scene::{Disc, Gripper, distance};
 
+/// What tells the shadow of an obstacle on a grasp: gripper, what is grasped, obstacle, and how far (m) fingers must stay
+/// away from it beyond the gripper's margin.
+pub type Shadow = fn(&Gripper, &Disc, &Disc, f64) -> ArcSet;
+
 /// The shadow of `obstacle` on a grasp of `grasped`, when the fingers must stay the gripper's margin plus `extra` (m) away
 /// from it. The k fingers are 2π/k apart, so modulo that period one finger's shadow is the gripper's.
 pub fn shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: f64) -> ArcSet {

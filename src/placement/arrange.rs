@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::Grasp;
+use crate::geometry::{Grasp, shadow};
 use crate::scene::{ObjectIndex, Scene, distance};
 
 /// What to arrange.
@@ -49,7 +49,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
     loop {
         let mut arranger = Arranger {
             task,
-            table: Tabletop::new(Layout::new(task.scene), Meter::new(effort, budget)),
+            table: Tabletop::new(Layout::new(task.scene, shadow), Meter::new(effort, budget)),
             width,
             truncated: false,
             relocations: Vec::new(),

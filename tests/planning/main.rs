@@ -5,6 +5,7 @@
 mod bases;
 mod check;
 mod generated;
+mod raster;
 mod scene_bases;
 mod scenes;
 mod space;
