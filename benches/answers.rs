@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, criterion_group, criterion_main};
 use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate};
-use singulate::knowledge::complete;
+use singulate::knowledge::{complete, swept_finger_options};
 use singulate::plan::{Settings, plan};
 use singulate::scene::{ObjectIndex, Scene, SceneLimits};
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_scene};
@@ -68,7 +68,7 @@ fn paper_50(seed: u64) -> Scene {
     let recipe = Recipe { objects: 50, table: (1.4, 1.4), ..Recipe::default() };
     let draft = generate(&recipe, seed).expect("fits");
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).expect("a sound scene");
-    let base = complete(&scene, &Budget::unlimited()).expect("small");
+    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("small");
     let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();
     let hardest = scene.indices().max_by_key(least).expect("not empty");
     scene.with_target(hardest).expect("nothing is fixed")

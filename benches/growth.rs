@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use singulate::budget::Budget;
-use singulate::knowledge::{close, complete};
+use singulate::knowledge::{close, complete, swept_finger_options};
 use singulate::scene::Scene;
 
 const SIZES: [usize; 8] = [50, 100, 200, 500, 1000, 2000, 5000, 10_000];
@@ -20,7 +20,7 @@ const MAX_SLOPE: f64 = 1.2;
 fn time(scene: &Scene) -> Duration {
     let run = |_| {
         let started = Instant::now();
-        let base = complete(scene, &Budget::unlimited()).expect("within the limits");
+        let base = complete(scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
         black_box(close(&base, |_| false, &Budget::unlimited()).expect("unlimited"));
         started.elapsed()
     };

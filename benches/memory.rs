@@ -82,7 +82,8 @@ fn name(verdict: &Verdict) -> &'static str {
 /// The target that chaining reaches last.
 fn deepest(draft: SceneDraft) -> SceneDraft {
     let scene = cases::scene(draft.clone());
-    let base = singulate::knowledge::complete(&scene, &Budget::unlimited()).expect("within the limits");
+    let base = singulate::knowledge::complete(&scene, singulate::knowledge::swept_finger_options, &Budget::unlimited())
+        .expect("within the limits");
     let closure = singulate::knowledge::close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let last = closure.order.last().expect("not all are locked");
     SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }

@@ -48,7 +48,7 @@ pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) ->
     let too_late = move |known: Known<'_, PlanRequest>| match (known, form) {
         (Known::Request(request), _) => {
             let verdict = Verdict::TimedOut(Unplanned::default());
-            write(form, request, &Answer { verdict, statistics: Statistics::default() })
+            write(form, request, &Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
         }
         (Known::Glance(glance), Form::Json) => {
             AnswerBody::unread(glance).map_or_else(|| Err(unread()), |body| json(&body))

@@ -10,13 +10,16 @@ use crate::plan::{
 };
 use crate::render::headline;
 use crate::scene::{ObjectIndex, Scene};
-use crate::wire::{FaultBody, PlanRequest, VerificationBody};
+use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
 
 /// More ids than this in one sentence nobody reads.
 const MANY: usize = 40;
 
 /// What `no_space` does not say.
 const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
+
+/// A deadlock that only one of the paper's methods claims.
+const UNPROVEN: &str = "The method that was asked for says so; it is not proven.\n";
 
 /// The text with control characters made visible: an id must not move the cursor or forge a line.
 pub(super) fn plain(text: &str) -> String {
@@ -33,13 +36,14 @@ pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
     match &answer.verdict {
         Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
         Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
-        Verdict::Deadlock(deadlock) => paragraphs.push(why_never(scene, deadlock)),
+        Verdict::Deadlock(Some(deadlock)) => paragraphs.push(why_never(scene, deadlock)),
+        Verdict::Deadlock(None) => paragraphs.push(UNPROVEN.to_owned()),
         Verdict::NoSpace(known) => paragraphs.extend([so_far(scene, known), NO_PROOF.to_owned()]),
         Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
     }
-    let warnings = request.warnings.iter();
     paragraphs.push(
-        warnings
+        warnings(request, answer)
+            .iter()
             .map(|warning| format!("warning: {} at {}\n", plain(&warning.detail), plain(&warning.pointer)))
             .collect(),
     );
@@ -79,8 +83,9 @@ fn yaw(grasp: Grasp) -> String {
 }
 
 fn why_least(scene: &Scene, plan: &Plan) -> String {
-    let (cost, least) = (plan.cost(), plan.bound.cost);
-    let bound = why_bound(scene, &plan.bound);
+    let Some(known) = &plan.bound else { return "Whether fewer relocations suffice is not known.\n".to_owned() };
+    let (cost, least) = (plan.cost(), known.cost);
+    let bound = why_bound(scene, known);
     if plan.optimal() {
         return format!("{bound}So {cost} is the least.\n");
     }
@@ -140,9 +145,11 @@ fn so_far(scene: &Scene, known: &Unplanned) -> String {
         Some(needed) => format!("Would free the target, moved in this order: {}\n", ids(scene, needed)),
         None => String::new(),
     };
-    let bound = match known.bound.cost {
-        0 => String::new(),
-        least => format!("{}So at least {least} must move.\n", why_bound(scene, &known.bound)),
+    let bound = match &known.bound {
+        Some(bound) if bound.cost > 0 => {
+            format!("{}So at least {} must move.\n", why_bound(scene, bound), bound.cost)
+        }
+        _ => String::new(),
     };
     let gap = if needed.is_empty() || bound.is_empty() { "" } else { "\n" };
     format!("{needed}{gap}{bound}")

@@ -12,4 +12,6 @@ pub use base::KnowledgeBase;
 pub use closure::{Closure, close};
 pub use lock::{Lock, lock};
 pub use options::{Blocker, minimal_options};
-pub use scene_base::{MAX_BASE_SIZE, NoBase, complete, completed, fixed_blockers, relevant};
+pub use scene_base::{
+    MAX_BASE_SIZE, NoBase, OptionsOf, blockers, complete, completed, fixed_blockers, relevant, swept_finger_options,
+};

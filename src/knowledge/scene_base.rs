@@ -3,7 +3,7 @@
 use super::base::KnowledgeBase;
 use super::options::{Blocker, minimal_options};
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::shadow;
+use crate::geometry::{Shadow, shadow};
 use crate::scene::{ObjectIndex, Scene};
 
 /// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base of
@@ -27,26 +27,34 @@ impl From<Interrupted> for NoBase {
     }
 }
 
+/// What gives a movable object its options. None may be empty-handed: to move all that stands in reach is one.
+pub type OptionsOf = fn(&Scene, ObjectIndex) -> Vec<Vec<ObjectIndex>>;
+
 /// The base of every movable object.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
-pub fn complete(scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+pub fn complete(scene: &Scene, options_of: OptionsOf, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
     let nothing: KnowledgeBase = scene.indices().map(|_| Vec::new()).collect();
-    completed(scene, &nothing, budget)
+    completed(scene, &nothing, options_of, budget)
 }
 
 /// The base of every movable object, given the part of it that [`relevant`] found.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
-pub fn completed(scene: &Scene, part: &KnowledgeBase, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+pub fn completed(
+    scene: &Scene,
+    part: &KnowledgeBase,
+    options_of: OptionsOf,
+    budget: &Budget<'_>,
+) -> Result<KnowledgeBase, NoBase> {
     let mut base = KnowledgeBase::new();
     for object in scene.indices() {
         budget.check()?;
         // A movable object that was looked at has an option: to move all that blocks it.
         if part.rules_of(object).is_empty() {
-            base.push(options(scene, object));
+            base.push(movable_options(scene, object, options_of));
         } else {
             base.push_same(part, Some(object));
         }
@@ -62,7 +70,12 @@ pub fn completed(scene: &Scene, part: &KnowledgeBase, budget: &Budget<'_>) -> Re
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
-pub fn relevant(scene: &Scene, target: ObjectIndex, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+pub fn relevant(
+    scene: &Scene,
+    target: ObjectIndex,
+    options_of: OptionsOf,
+    budget: &Budget<'_>,
+) -> Result<KnowledgeBase, NoBase> {
     let count = scene.objects().len();
     // In the order in which they are reached; sorted into the base at the end.
     let mut reached = KnowledgeBase::new();
@@ -71,7 +84,7 @@ pub fn relevant(scene: &Scene, target: ObjectIndex, budget: &Budget<'_>) -> Resu
     let mut order = vec![target];
     while let Some(&object) = order.get(reached.len()) {
         budget.check()?;
-        reached.push(options(scene, object));
+        reached.push(movable_options(scene, object, options_of));
         for &member in reached.options(ObjectIndex::new(reached.len() - 1)).flatten() {
             if !core::mem::replace(&mut seen[member.get()], true) {
                 order.push(member);
@@ -97,7 +110,7 @@ pub fn fixed_blockers(
     let mut found: Vec<ObjectIndex> = Vec::new();
     for &member in members.iter().filter(|member| !fixed(**member)) {
         budget.check()?;
-        found.extend(blockers(scene, member, fixed).into_iter().map(|blocker| blocker.object));
+        found.extend(those_blocking(scene, member, shadow, fixed).into_iter().map(|blocker| blocker.object));
     }
     found.sort_unstable();
     found.dedup();
@@ -105,15 +118,26 @@ pub fn fixed_blockers(
 }
 
 /// None for a fixed object. Options that hold a fixed object stay: no rule with one ever fires, and locks need them.
-fn options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
-    if scene.object(object).fixed() {
-        return Vec::new();
-    }
-    minimal_options(&blockers(scene, object, |_| true), scene.gripper().min_free_width())
+fn movable_options(scene: &Scene, object: ObjectIndex, options_of: OptionsOf) -> Vec<Vec<ObjectIndex>> {
+    if scene.object(object).fixed() { Vec::new() } else { options_of(scene, object) }
 }
 
-/// Those obstacles of a kind that block a grasp of `object` at some yaw, in index order.
-fn blockers(scene: &Scene, object: ObjectIndex, of_kind: impl Fn(ObjectIndex) -> bool) -> Vec<Blocker> {
+/// The options of a movable object by the swept finger.
+pub fn swept_finger_options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
+    minimal_options(&blockers(scene, object, shadow), scene.gripper().min_free_width())
+}
+
+/// The obstacles that block a grasp of `object` at some yaw, each with its shadow by `model`, in index order.
+pub fn blockers(scene: &Scene, object: ObjectIndex, model: Shadow) -> Vec<Blocker> {
+    those_blocking(scene, object, model, |_| true)
+}
+
+fn those_blocking(
+    scene: &Scene,
+    object: ObjectIndex,
+    model: Shadow,
+    of_kind: impl Fn(ObjectIndex) -> bool,
+) -> Vec<Blocker> {
     let gripper = scene.gripper();
     let disc = scene.object(object).disc();
     let reach = gripper.corner_distance(disc.radius) + gripper.margin();
@@ -121,7 +145,7 @@ fn blockers(scene: &Scene, object: ObjectIndex, of_kind: impl Fn(ObjectIndex) ->
         .index()
         .within(disc.centre, reach)
         .filter(|(other, _)| *other != object && of_kind(*other))
-        .map(|(other, obstacle)| Blocker { object: other, shadow: shadow(gripper, &disc, &obstacle, 0.0) })
+        .map(|(other, obstacle)| Blocker { object: other, shadow: model(gripper, &disc, &obstacle, 0.0) })
         .filter(|blocker| !blocker.shadow.is_empty())
         .collect();
     near.sort_unstable_by_key(|blocker| blocker.object);

@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::{Grasp, shadow};
+use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene, distance};
 
 /// What to arrange.
@@ -19,6 +19,8 @@ use crate::scene::{ObjectIndex, Scene, distance};
 pub struct Task<'a> {
     /// The scene at the start.
     pub scene: &'a Scene,
+    /// Which yaws an obstacle blocks.
+    pub model: Shadow,
     /// The objects to relocate, in an order in which each becomes graspable.
     pub set: &'a [ObjectIndex],
     /// How many relocations more than the set's there may be: of an object that only stands in the way of a place, or of
@@ -49,7 +51,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
     loop {
         let mut arranger = Arranger {
             task,
-            table: Tabletop::new(Layout::new(task.scene, shadow), Meter::new(effort, budget)),
+            table: Tabletop::new(Layout::new(task.scene, task.model), Meter::new(effort, budget)),
             width,
             truncated: false,
             relocations: Vec::new(),

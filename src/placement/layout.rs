@@ -9,7 +9,7 @@ use crate::scene::{Disc, ObjectIndex, Scene};
 #[derive(Debug, Clone)]
 pub struct Layout<'a> {
     scene: &'a Scene,
-    shadow: Shadow,
+    model: Shadow,
     /// Per object its new place, if it was moved.
     place: Vec<Option<Point2<f64>>>,
     moved: Vec<ObjectIndex>,
@@ -17,10 +17,10 @@ pub struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// The scene as it is, with grasps judged by `shadow`.
-    pub fn new(scene: &'a Scene, shadow: Shadow) -> Self {
+    /// The scene as it is; `model` says which yaws are free.
+    pub fn new(scene: &'a Scene, model: Shadow) -> Self {
         let count = scene.objects().len();
-        Self { scene, shadow, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
+        Self { scene, model, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
     }
 
     pub(super) fn scene(&self) -> &'a Scene {
@@ -78,7 +78,7 @@ impl<'a> Layout<'a> {
         let shadows: Vec<ArcSet> = self
             .near(disc.centre, reach)
             .filter(|(other, _)| *other != object)
-            .map(|(_, obstacle)| (self.shadow)(gripper, disc, &obstacle, extra))
+            .map(|(_, obstacle)| (self.model)(gripper, disc, &obstacle, extra))
             .collect();
         ArcSet::union(gripper.period(), &shadows)
     }

@@ -16,7 +16,7 @@ pub use arrange::{Arrangement, Task, arrange};
 pub use effort::Effort;
 pub use layout::Layout;
 
-use crate::geometry::{Grasp, shadow};
+use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene};
 use nalgebra::Point2;
 
@@ -59,8 +59,8 @@ pub struct Relocation {
 }
 
 /// How an object can be grasped as the table stands.
-pub fn grasp_in_place(scene: &Scene, object: ObjectIndex) -> Option<Grasp> {
-    Layout::new(scene, shadow).grasp(object)
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
+    Layout::new(scene, model).grasp(object)
 }
 
 /// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.

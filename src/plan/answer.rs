@@ -2,6 +2,7 @@
 
 use core::time::Duration;
 
+use super::warning::Warning;
 use crate::geometry::Grasp;
 use crate::placement::Relocation;
 use crate::scene::ObjectIndex;
@@ -31,15 +32,15 @@ pub struct Plan {
     pub relocations: Vec<Relocation>,
     /// How the target is grasped in the end.
     pub target_grasp: Grasp,
-    /// The proven bound; the plan is optimal where it has as many relocations.
-    pub bound: LowerBound,
+    /// The proven bound; the plan is optimal where it has as many relocations. `None` where nothing is proven.
+    pub bound: Option<LowerBound>,
 }
 
 /// What is known where no plan is served.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unplanned {
-    /// The proven bound.
-    pub bound: LowerBound,
+    /// The proven bound; `None` where nothing is proven.
+    pub bound: Option<LowerBound>,
     /// The objects of the best known derivation, in order; `None` where none is known.
     pub needed: Option<Vec<ObjectIndex>>,
 }
@@ -51,8 +52,8 @@ pub enum Verdict {
     Graspable(Grasp),
     /// This plan frees the target.
     Relocate(Plan),
-    /// No sequence of pick-and-place can ever free the target.
-    Deadlock(Deadlock),
+    /// No sequence of pick-and-place can ever free the target. Without its proof only by the paper's methods.
+    Deadlock(Option<Deadlock>),
     /// Effort spent or places exhausted without a checked plan; not a proof.
     NoSpace(Unplanned),
     /// The time limit came first, with no plan in hand.
@@ -68,7 +69,7 @@ pub struct Statistics {
     pub search: Duration,
     /// Places.
     pub placement: Duration,
-    /// The independent check.
+    /// The independent check; for the paper's methods our own search too, which judges them.
     pub check: Duration,
 }
 
@@ -77,6 +78,8 @@ pub struct Statistics {
 pub struct Answer {
     /// What was found.
     pub verdict: Verdict,
+    /// What is worth knowing about an answer by the paper's methods.
+    pub warnings: Vec<Warning>,
     /// Not part of the answer's identity: differs from run to run.
     pub statistics: Statistics,
 }
@@ -87,9 +90,33 @@ impl Plan {
         self.relocations.len()
     }
 
-    /// True if no plan has fewer relocations.
+    /// True if it has as many relocations as are proven to be necessary.
     pub fn optimal(&self) -> bool {
-        self.cost() == self.bound.cost
+        self.bound.as_ref().is_some_and(|bound| self.cost() == bound.cost)
+    }
+}
+
+impl Answer {
+    /// True where the checker refuses a part of it: only answers by the paper's methods are served so.
+    pub fn faulty(&self) -> bool {
+        self.warnings.iter().any(|warning| matches!(warning, Warning::Faulty(_)))
+    }
+
+    /// True if the plan holds and none has fewer relocations; `None` where there is no plan or nothing is proven.
+    pub fn optimal(&self) -> Option<bool> {
+        match &self.verdict {
+            _ if self.faulty() => None,
+            Verdict::Graspable(_) => Some(true),
+            Verdict::Relocate(plan) => plan.bound.as_ref().map(|_| plan.optimal()),
+            Verdict::Deadlock(_) | Verdict::NoSpace(_) | Verdict::TimedOut(_) => None,
+        }
+    }
+}
+
+/// Nothing but the bound that needs no proof.
+impl Default for Unplanned {
+    fn default() -> Self {
+        Self { bound: Some(LowerBound::default()), needed: None }
     }
 }
 
@@ -97,8 +124,8 @@ impl Verdict {
     /// The bound, where the verdict has one to prove.
     pub(super) fn bound_mut(&mut self) -> Option<&mut LowerBound> {
         match self {
-            Self::Relocate(plan) => Some(&mut plan.bound),
-            Self::NoSpace(rest) | Self::TimedOut(rest) => Some(&mut rest.bound),
+            Self::Relocate(plan) => plan.bound.as_mut(),
+            Self::NoSpace(rest) | Self::TimedOut(rest) => rest.bound.as_mut(),
             Self::Graspable(_) | Self::Deadlock(_) => None,
         }
     }

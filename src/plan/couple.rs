@@ -1,6 +1,7 @@
 //! Sets from the search meet places on the table, in order of cost.
 
 use crate::budget::{Budget, Interrupted};
+use crate::geometry::Shadow;
 use crate::knowledge::KnowledgeBase;
 use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
 use crate::scene::{ObjectIndex, Scene};
@@ -22,6 +23,7 @@ const MAX_SETS: usize = 32;
 pub(super) struct Question<'a> {
     pub(super) scene: &'a Scene,
     pub(super) base: &'a KnowledgeBase,
+    pub(super) model: Shadow,
     pub(super) objective: Objective,
 }
 
@@ -73,7 +75,8 @@ fn attempt(
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     for objective in [question.objective, question.objective.other()] {
-        let task = Task { scene: question.scene, set, extra: cost - set.len(), objective };
+        let Question { scene, model, .. } = *question;
+        let task = Task { scene, model, set, extra: cost - set.len(), objective };
         let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(cost)));
         let found = arrange(&task, &mut part, budget)?;
         effort.join(part);

@@ -5,10 +5,13 @@ pub mod check;
 mod claim;
 mod confirm;
 mod couple;
+mod judge;
 mod planner;
 mod settings;
+mod sought;
 mod statement;
 mod survey;
+mod warning;
 
 pub use crate::geometry::Grasp;
 pub use crate::placement::{Objective, Relocation};
@@ -16,5 +19,6 @@ pub use answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verd
 pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 pub use confirm::PlanError;
 pub use planner::plan;
-pub use settings::Settings;
+pub use settings::{GraspModel, PlacementMethod, SearchMethod, Settings};
 pub use survey::{SurveyEntry, SurveyVerdict, survey};
+pub use warning::{Cause, Warning};

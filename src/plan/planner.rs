@@ -4,14 +4,20 @@ use core::time::Duration;
 
 use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
 use super::check::{Fault, FaultCode, Report};
-use super::confirm::{PlanError, confirm};
+use super::confirm::{PlanError, confirm, confirm_unproven};
 use super::couple::{Question, arrange_least, arrange_one};
-use super::settings::Settings;
+use super::judge::judge;
+use super::settings::{GraspModel, PlacementMethod, Settings};
+use super::sought::{Sought, seek};
+use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{Closure, KnowledgeBase, Lock, NoBase, close, completed, fixed_blockers, lock, relevant};
+use crate::geometry::Shadow;
+use crate::knowledge::{
+    Closure, KnowledgeBase, Lock, NoBase, close, completed, fixed_blockers, lock, swept_finger_options,
+};
 use crate::placement::{Arrangement, grasp_in_place};
 use crate::scene::Scene;
-use crate::search::{LeastSet, Outcome, Restriction, least};
+use crate::search::Derivation;
 
 /// The share of the time after which knowledge and search hand over what they have.
 const SEARCH_SHARE: f64 = 0.6;
@@ -20,48 +26,68 @@ const PLACEMENT_SHARE: f64 = 0.75;
 
 /// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
 ///
+/// An answer by the paper's methods is judged by our own afterwards, within the same time: bounds and locks are those of
+/// the swept finger, and what the checker or the exact search has against the answer becomes a warning.
+///
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if the answer fails its check.
 pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
-    let mut statistics = Statistics::default();
-    let verdict = Planner { scene, settings, budget, statistics: &mut statistics }.verdict()?;
+    let mut planner =
+        Planner { scene, settings, budget, statistics: Statistics::default(), warnings: Vec::new(), sought: None };
+    let verdict = planner.verdict()?;
+    let Planner { mut statistics, mut warnings, sought, .. } = planner;
     let before = budget.elapsed();
-    let verdict = confirm(scene, verdict, budget)?;
+    let verdict = if settings.proven() {
+        confirm(scene, verdict, budget)?
+    } else {
+        let judged = judge(scene, settings, verdict, sought, &mut warnings, budget)?;
+        confirm_unproven(scene, judged, &mut warnings, budget)?
+    };
     statistics.check = budget.elapsed().saturating_sub(before);
-    Ok(Answer { verdict, statistics })
+    Ok(Answer { verdict, warnings, statistics })
 }
 
 struct Planner<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
     budget: &'a Budget<'a>,
-    statistics: &'a mut Statistics,
+    statistics: Statistics,
+    warnings: Vec<Warning>,
+    /// What the search said and on which base, for whoever judges it.
+    sought: Option<(KnowledgeBase, Sought)>,
 }
 
 impl Planner<'_> {
     fn verdict(&mut self) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
         let search_budget = self.budget.share(SEARCH_SHARE);
-        let target = self.scene.target();
-        let base = relevant(self.scene, target, &search_budget);
+        let base = self.settings.search.base(self.scene, self.settings.grasp_model, &search_budget);
         self.statistics.knowledge = self.since(started);
         let base = match base {
             Ok(base) => base,
             Err(NoBase::Interrupted) => return Ok(Verdict::TimedOut(Unplanned::default())),
             Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
         };
-        if base.options(target).any(<[_]>::is_empty) {
-            return graspable_now(self.scene);
+        if base.options(self.scene.target()).any(<[_]>::is_empty) {
+            return graspable_now(self.scene, self.settings.grasp_model.shadow());
         }
         let started = self.budget.elapsed();
-        let outcome = least(&base, target, &Restriction::default(), &search_budget);
+        let sought = seek(self.settings.search, &base, self.scene.target(), &search_budget);
         self.statistics.search = self.since(started);
-        match outcome {
-            Outcome::Underivable => self.deadlock(&base),
-            Outcome::Interrupted(None) => Ok(Verdict::TimedOut(Unplanned::default())),
-            Outcome::Interrupted(Some(known)) => Ok(self.place(&base, known, false)),
-            Outcome::Least(known) => Ok(self.place(&base, known, true)),
-        }
+        let verdict = match &sought {
+            Sought::Nothing if self.settings.proven() => self.deadlock(&base),
+            Sought::Nothing => Ok(Verdict::Deadlock(None)),
+            Sought::TooLate => Ok(Verdict::TimedOut(Unplanned::default())),
+            Sought::TooLarge => {
+                self.warnings.push(Warning::SearchTooLarge);
+                Ok(Verdict::TimedOut(Unplanned::default()))
+            }
+            Sought::Least(known) => Ok(self.place(&base, &known.derivation, Some(known.into()), Placing::Least)),
+            Sought::Best(known) => Ok(self.place(&base, &known.derivation, Some(known.into()), Placing::Cut)),
+            Sought::Sequence(derivation) => Ok(self.place(&base, derivation, None, Placing::Sequence)),
+        };
+        self.sought = Some((base, sought));
+        verdict
     }
 
     fn since(&self, started: Duration) -> Duration {
@@ -70,47 +96,64 @@ impl Planner<'_> {
 
     fn deadlock(&mut self, relevant: &KnowledgeBase) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
-        let budget = self.budget.share(PLACEMENT_SHARE);
-        // The relevant part of the base would show a lock, but not the greatest.
-        let found = completed(self.scene, relevant, &budget).and_then(|base| {
-            let closure = close(&base, |_| false, &budget)?;
-            Ok(greatest_lock(self.scene, &base, &closure, &budget)?)
-        });
+        let found = prove_deadlock(self.scene, relevant, &self.budget.share(PLACEMENT_SHARE));
         self.statistics.knowledge += self.since(started);
         match found {
-            Ok(lock) => Ok(Verdict::Deadlock(lock)),
+            Ok(lock) => Ok(Verdict::Deadlock(Some(lock))),
             Err(NoBase::Interrupted) => Ok(Verdict::TimedOut(Unplanned::default())),
             Err(NoBase::TooLarge) => Err(PlanError::TooDense),
         }
     }
 
-    fn place(&mut self, base: &KnowledgeBase, known: LeastSet, exact: bool) -> Verdict {
+    fn place(
+        &mut self,
+        base: &KnowledgeBase,
+        derivation: &Derivation,
+        bound: Option<LowerBound>,
+        placing: Placing,
+    ) -> Verdict {
         let started = self.budget.elapsed();
         let budget = self.budget.share(PLACEMENT_SHARE);
-        let question = Question { scene: self.scene, base, objective: self.settings.objective };
-        let found = if exact {
-            arrange_least(&question, known.derivation.clone(), &budget)
-        } else {
-            arrange_one(&question, &known.derivation.order, &budget)
+        let model = self.settings.grasp_model.shadow();
+        let question = Question { scene: self.scene, base, model, objective: self.settings.objective };
+        let found = match (self.settings.placement, placing) {
+            (PlacementMethod::Exact, Placing::Least) => arrange_least(&question, derivation.clone(), &budget),
+            (PlacementMethod::Exact, _) => arrange_one(&question, &derivation.order, &budget),
         };
         self.statistics.placement = self.since(started);
-        let bound = LowerBound { cost: known.bound, landmarks: known.landmarks };
+        // Knowledge by another model proves nothing for the swept finger.
+        let bound = bound.filter(|_| self.settings.grasp_model == GraspModel::SweptFinger);
         match found {
             Ok(Some(Arrangement { relocations, target_grasp })) => {
                 Verdict::Relocate(Plan { relocations, target_grasp, bound })
             }
-            Ok(None) if exact => Verdict::NoSpace(Unplanned { bound, needed: Some(known.derivation.order) }),
-            Ok(None) | Err(Interrupted) => Verdict::TimedOut(Unplanned { bound, needed: Some(known.derivation.order) }),
+            Ok(None) if placing != Placing::Cut => {
+                Verdict::NoSpace(Unplanned { bound, needed: Some(derivation.order.clone()) })
+            }
+            Ok(None) | Err(Interrupted) => {
+                Verdict::TimedOut(Unplanned { bound, needed: Some(derivation.order.clone()) })
+            }
         }
     }
+}
+
+/// What places are sought for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Placing {
+    /// A least set, and others after it.
+    Least,
+    /// The best set of a search that was cut off.
+    Cut,
+    /// The one sequence that one of the paper's searches gives.
+    Sequence,
 }
 
 /// The grasp of a target that knowledge says is graspable as the table stands.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if no yaw is free: then knowledge and geometry contradict each other, a bug.
-pub(super) fn graspable_now(scene: &Scene) -> Result<Verdict, PlanError> {
-    grasp_in_place(scene, scene.target()).map(Verdict::Graspable).ok_or_else(|| {
+pub(super) fn graspable_now(scene: &Scene, model: Shadow) -> Result<Verdict, PlanError> {
+    grasp_in_place(scene, scene.target(), model).map(Verdict::Graspable).ok_or_else(|| {
         let fault = Fault {
             code: FaultCode::TargetBlocked,
             step: None,
@@ -119,6 +162,14 @@ pub(super) fn graspable_now(scene: &Scene) -> Result<Verdict, PlanError> {
         };
         PlanError::Refused(Report { faults: vec![fault], ..Report::default() })
     })
+}
+
+/// Why the target, which does not follow from the relevant part of the swept finger's base, does not. That part would show
+/// a lock, but not the greatest.
+pub(super) fn prove_deadlock(scene: &Scene, relevant: &KnowledgeBase, budget: &Budget<'_>) -> Result<Deadlock, NoBase> {
+    let base = completed(scene, relevant, swept_finger_options, budget)?;
+    let closure = close(&base, |_| false, budget)?;
+    Ok(greatest_lock(scene, &base, &closure, budget)?)
 }
 
 /// Why the target, which does not follow, does not: from the complete base and its closure.

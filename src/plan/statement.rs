@@ -17,16 +17,16 @@ impl Claim {
     pub fn of(scene: &Scene, answer: &Answer) -> Self {
         let ids =
             |objects: &[ObjectIndex]| objects.iter().map(|&o| scene.object(o).id().to_owned()).collect::<Vec<_>>();
-        let bounded = |bound: &LowerBound| Self {
-            lower_bound: Some(bound.cost as u64),
-            landmarks: Some(bound.landmarks.iter().map(|landmark| ids(landmark)).collect()),
+        let bounded = |bound: Option<&LowerBound>| Self {
+            lower_bound: bound.map(|bound| bound.cost as u64),
+            landmarks: bound.map(|bound| bound.landmarks.iter().map(|landmark| ids(landmark)).collect()),
             ..Self::default()
         };
         let unplanned = |verdict, unplanned: &Unplanned| Self {
             verdict: Some(verdict),
             relocations: Some(Vec::new()),
             needed: unplanned.needed.as_deref().map(ids),
-            ..bounded(&unplanned.bound)
+            ..bounded(unplanned.bound.as_ref())
         };
         match &answer.verdict {
             Verdict::Graspable(grasp) => Self {
@@ -34,21 +34,23 @@ impl Claim {
                 relocations: Some(Vec::new()),
                 target_grasp: Some((*grasp).into()),
                 cost: Some(0),
-                optimal: Some(true),
-                ..bounded(&LowerBound::default())
+                optimal: answer.optimal(),
+                ..bounded(Some(&LowerBound::default()))
             },
             Verdict::Relocate(plan) => Self {
                 verdict: Some(VerdictName::Relocate),
                 relocations: Some(plan.relocations.iter().map(|step| ClaimedRelocation::of(scene, step)).collect()),
                 target_grasp: Some(plan.target_grasp.into()),
                 cost: Some(plan.cost() as u64),
-                optimal: Some(plan.optimal()),
-                ..bounded(&plan.bound)
+                optimal: answer.optimal(),
+                ..bounded(plan.bound.as_ref())
             },
             Verdict::Deadlock(deadlock) => Self {
                 verdict: Some(VerdictName::Deadlock),
                 relocations: Some(Vec::new()),
-                deadlock: Some(ClaimedDeadlock { blocked: ids(&deadlock.blocked), core: ids(&deadlock.core) }),
+                deadlock: deadlock
+                    .as_ref()
+                    .map(|proof| ClaimedDeadlock { blocked: ids(&proof.blocked), core: ids(&proof.core) }),
                 ..Self::default()
             },
             Verdict::NoSpace(rest) => unplanned(VerdictName::NoSpace, rest),

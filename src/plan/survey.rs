@@ -1,10 +1,11 @@
 //! Every movable object as the target: logic only, no places.
 
-use super::answer::{LowerBound, Unplanned, Verdict};
+use super::answer::{Unplanned, Verdict};
 use super::confirm::{PlanError, confirm};
 use super::planner::{graspable_now, greatest_lock};
 use crate::budget::Budget;
-use crate::knowledge::{Closure, KnowledgeBase, NoBase, close, complete};
+use crate::geometry::shadow;
+use crate::knowledge::{Closure, KnowledgeBase, NoBase, close, complete, swept_finger_options};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Outcome, Restriction, least};
 
@@ -40,7 +41,8 @@ pub struct SurveyEntry {
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if an entry's proof fails its check.
 pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
     let movable = scene.indices().filter(|&object| !scene.object(object).fixed());
-    let known = complete(scene, budget).and_then(|base| Ok((close(&base, |_| false, budget)?, base)));
+    let known =
+        complete(scene, swept_finger_options, budget).and_then(|base| Ok((close(&base, |_| false, budget)?, base)));
     let (closure, base) = match known {
         Ok(known) => known,
         Err(NoBase::Interrupted) => return Ok(movable.map(timed_out).collect()),
@@ -68,7 +70,7 @@ impl Surveyor<'_> {
             return self.deadlock(&scene, budget);
         }
         let verdict = if self.base.options(object).any(<[_]>::is_empty) {
-            graspable_now(&scene)?
+            graspable_now(&scene, shadow)?
         } else {
             self.derive(object, budget)
         };
@@ -76,7 +78,7 @@ impl Surveyor<'_> {
             Verdict::Graspable(_) => {
                 SurveyEntry { object, verdict: SurveyVerdict::Graspable, lower_bound: Some(0), optimal: Some(true) }
             }
-            Verdict::NoSpace(Unplanned { bound, needed: Some(needed) }) => SurveyEntry {
+            Verdict::NoSpace(Unplanned { bound: Some(bound), needed: Some(needed) }) => SurveyEntry {
                 object,
                 verdict: SurveyVerdict::Relocate,
                 lower_bound: Some(bound.cost),
@@ -89,10 +91,9 @@ impl Surveyor<'_> {
     /// A derivation with its bound, stated as an answer without places.
     fn derive(&self, object: ObjectIndex, budget: &Budget<'_>) -> Verdict {
         match least(self.base, object, &Restriction::default(), budget) {
-            Outcome::Least(known) | Outcome::Interrupted(Some(known)) => Verdict::NoSpace(Unplanned {
-                bound: LowerBound { cost: known.bound, landmarks: known.landmarks },
-                needed: Some(known.derivation.order),
-            }),
+            Outcome::Least(known) | Outcome::Interrupted(Some(known)) => {
+                Verdict::NoSpace(Unplanned { bound: Some((&known).into()), needed: Some(known.derivation.order) })
+            }
             Outcome::Underivable | Outcome::Interrupted(None) => Verdict::TimedOut(Unplanned::default()),
         }
     }
@@ -103,7 +104,8 @@ impl Surveyor<'_> {
             Some(verdict) => verdict,
             None => {
                 let lock = greatest_lock(scene, self.base, self.closure, budget);
-                let verdict = lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), Verdict::Deadlock);
+                let verdict =
+                    lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
                 match confirm(scene, verdict, budget)? {
                     Verdict::Deadlock(_) => SurveyVerdict::Deadlock,
                     _ => SurveyVerdict::TimedOut,

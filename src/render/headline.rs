@@ -6,23 +6,27 @@ use svg::node::element::Group;
 use super::label;
 use super::paint;
 use super::view::{PADDING, View};
-use crate::plan::{Answer, Plan, Verdict};
+use crate::plan::{Answer, LowerBound, Plan, Verdict};
 use crate::scene::{ObjectIndex, Scene};
 
 /// The verdict in one line, without ids.
 pub fn headline(answer: &Answer) -> String {
     match &answer.verdict {
         Verdict::Graspable(_) => "graspable: nothing has to move".to_owned(),
+        Verdict::Relocate(plan) if answer.faulty() => format!("{} (does not pass its check)", relocate(plan)),
         Verdict::Relocate(plan) => format!("{} ({})", relocate(plan), proof(plan)),
-        Verdict::Deadlock(deadlock) => {
+        Verdict::Deadlock(None) => "deadlock, not proven: the method that was asked for finds no plan".to_owned(),
+        Verdict::Deadlock(Some(deadlock)) => {
             let count = deadlock.core.len();
             format!("deadlock: {} each other, no pick-and-place can free the target", holding(count))
         }
         Verdict::NoSpace(known) => {
-            format!("no space: no place found for what has to move ({} needed)", at_least(known.bound.cost))
+            format!("no space: no place found for what has to move ({})", bound(known.bound.as_ref()))
         }
-        Verdict::TimedOut(known) if known.bound.cost == 0 => "timed out: nothing is proven yet".to_owned(),
-        Verdict::TimedOut(known) => format!("timed out: no plan yet ({} needed)", at_least(known.bound.cost)),
+        Verdict::TimedOut(known) if known.bound.as_ref().is_some_and(|bound| bound.cost > 0) => {
+            format!("timed out: no plan yet ({})", bound(known.bound.as_ref()))
+        }
+        Verdict::TimedOut(_) => "timed out: nothing is proven yet".to_owned(),
     }
 }
 
@@ -38,7 +42,11 @@ fn relocate(plan: &Plan) -> String {
 }
 
 fn proof(plan: &Plan) -> String {
-    if plan.optimal() { "proven least".to_owned() } else { format!("{} needed", at_least(plan.bound.cost)) }
+    if plan.optimal() { "proven least".to_owned() } else { bound(plan.bound.as_ref()) }
+}
+
+fn bound(bound: Option<&LowerBound>) -> String {
+    bound.map_or_else(|| "nothing is proven".to_owned(), |bound| format!("{} needed", at_least(bound.cost)))
 }
 
 fn at_least(cost: usize) -> String {
@@ -64,7 +72,8 @@ fn detail(scene: &Scene, answer: &Answer) -> String {
             let moved: Vec<ObjectIndex> = plan.relocations.iter().map(|step| step.object).collect();
             format!("in order: {}", ids(&moved))
         }
-        Verdict::Deadlock(deadlock) => format!("holding each other: {}", ids(&deadlock.core)),
+        Verdict::Deadlock(None) => String::new(),
+        Verdict::Deadlock(Some(deadlock)) => format!("holding each other: {}", ids(&deadlock.core)),
         Verdict::NoSpace(known) | Verdict::TimedOut(known) => match &known.needed {
             Some(needed) => format!("would have to move, in order: {}", ids(needed)),
             None => String::new(),

@@ -71,7 +71,7 @@ fn signs(scene: &Scene, answer: &Answer) -> Vec<(Sign, &'static str)> {
             (Sign::Finger(paint::RELEASE), "fingers releasing"),
             (Sign::Finger(paint::TARGET_GRASP), "fingers at the target"),
         ]),
-        Verdict::Deadlock(deadlock) => {
+        Verdict::Deadlock(Some(deadlock)) => {
             signs.push((Sign::Disc(paint::CORE), "hold each other (a minimal set)"));
             if deadlock.blocked.len() > deadlock.core.len() {
                 signs.push((Sign::Disc(paint::BLOCKED), "can never be moved either"));
@@ -81,7 +81,7 @@ fn signs(scene: &Scene, answer: &Answer) -> Vec<(Sign, &'static str)> {
             signs.push((Sign::Disc(paint::NEEDED), "would have to move"));
             signs.push((Sign::Number(paint::NEEDED), "order"));
         }
-        Verdict::NoSpace(_) | Verdict::TimedOut(_) => {}
+        Verdict::NoSpace(_) | Verdict::TimedOut(_) | Verdict::Deadlock(None) => {}
     }
     signs
 }

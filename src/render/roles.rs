@@ -27,14 +27,14 @@ impl Roles {
         let mut roles = Self(vec![Role::Bystander; scene.objects().len()]);
         match &answer.verdict {
             Verdict::Relocate(plan) => roles.give(Role::Moved, plan.relocations.iter().map(|step| step.object)),
-            Verdict::Deadlock(deadlock) => {
+            Verdict::Deadlock(Some(deadlock)) => {
                 roles.give(Role::Blocked, deadlock.blocked.iter().copied());
                 roles.give(Role::Core, deadlock.core.iter().copied());
             }
             Verdict::NoSpace(known) | Verdict::TimedOut(known) => {
                 roles.give(Role::Needed, known.needed.iter().flatten().copied());
             }
-            Verdict::Graspable(_) => {}
+            Verdict::Graspable(_) | Verdict::Deadlock(None) => {}
         }
         roles
     }

@@ -40,7 +40,7 @@ fn scene(ids: &[&str]) -> Scene {
 }
 
 fn answer(verdict: Verdict) -> Answer {
-    Answer { verdict, statistics: Statistics::default() }
+    Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() }
 }
 
 fn objects(positions: &[usize]) -> Vec<ObjectIndex> {
@@ -55,7 +55,7 @@ fn relocate(scene: &Scene, moved: &[usize]) -> Answer {
     };
     let relocations = objects(moved).into_iter().map(relocation).collect();
     let bound = LowerBound { cost: moved.len(), landmarks: Vec::new() };
-    answer(Verdict::Relocate(Plan { relocations, target_grasp: grasp, bound }))
+    answer(Verdict::Relocate(Plan { relocations, target_grasp: grasp, bound: Some(bound) }))
 }
 
 /// Panics where the text is not well-formed XML: tags nest, attributes are quoted, `<` and `&` are escaped.
@@ -96,7 +96,7 @@ fn an_id_is_text_and_never_mark_up() {
     for answer in [
         relocate(&scene, &[1, 2, 3]),
         answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: PI / 3.0 })),
-        answer(Verdict::Deadlock(Deadlock { blocked: objects(&[0, 1, 2, 4]), core: objects(&[0, 2]) })),
+        answer(Verdict::Deadlock(Some(Deadlock { blocked: objects(&[0, 1, 2, 4]), core: objects(&[0, 2]) }))),
         answer(Verdict::NoSpace(Unplanned { needed: Some(objects(&[3, 1])), ..Unplanned::default() })),
         answer(Verdict::TimedOut(Unplanned::default())),
     ] {
@@ -121,7 +121,7 @@ fn every_relocation_is_one_group_with_a_ghost_and_fingers_at_both_places() {
 fn the_core_of_a_deadlock_is_red_and_the_rest_of_it_pale() {
     let scene = scene(&["t", "a", "b", "c", "d"]);
     let deadlock = Deadlock { blocked: objects(&[0, 1, 2]), core: objects(&[0, 2]) };
-    let drawing = svg(&scene, &answer(Verdict::Deadlock(deadlock)));
+    let drawing = svg(&scene, &answer(Verdict::Deadlock(Some(deadlock))));
     // The legend shows each colour once more.
     assert_eq!(drawing.matches(paint::CORE.fill).count(), 3);
     assert_eq!(drawing.matches(paint::BLOCKED.fill).count(), 2);

@@ -6,6 +6,7 @@ use nalgebra::Point2;
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::finding;
 use super::glance::Glance;
 use super::problem::ErrorItem;
 use super::request::PlanRequest;
@@ -35,23 +36,25 @@ pub struct AnswerBody {
     /// The count of relocations; null where there is no plan.
     #[schema(required = true, example = 1)]
     pub cost: Option<usize>,
-    /// No plan has fewer relocations, proven; null for a deadlock.
+    /// No plan has fewer relocations, proven; null for a deadlock, and where one of the paper's methods was asked for and
+    /// nothing is proven.
     #[schema(required = true, example = 1)]
     pub lower_bound: Option<usize>,
-    /// True if no plan has fewer relocations than this one; null where there is no plan.
+    /// True if no plan has fewer relocations than this one; null where there is no plan that passes its check, or nothing
+    /// is proven.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
-    /// The proof of the bound: of each set of ids every plan moves at least one. Null for a deadlock.
+    /// The proof of the bound: of each set of ids every plan moves at least one. Null where `lower_bound` is.
     #[schema(required = true, example = json!([["plate-2", "plate-5"]]))]
     pub landmarks: Option<Vec<Vec<String>>>,
-    /// Why nothing frees the target; null for any other verdict.
+    /// Why nothing frees the target; null for any other verdict, and for an unproven deadlock of the paper's methods.
     #[schema(required = true)]
     pub deadlock: Option<DeadlockBody>,
     /// For `no_space` and `timed_out` the ids of the best known derivation, in order; null otherwise or where none is
     /// known.
     #[schema(required = true, example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
-    /// What is worth knowing about the scene.
+    /// What is worth knowing about the scene; for the paper's methods also what our own have against the answer.
     #[schema(example = json!([{
         "code": "overlap",
         "pointer": "/objects/2",
@@ -154,7 +157,7 @@ pub struct StatisticsBody {
     /// New places, ms.
     #[schema(example = 0.2)]
     pub placement_ms: f64,
-    /// The independent check, ms.
+    /// The independent check, ms; for the paper's methods our own search too, which judges them.
     #[schema(example = 0.02)]
     pub check_ms: f64,
 }
@@ -164,14 +167,14 @@ impl AnswerBody {
     pub fn new(request: &PlanRequest, answer: &Answer) -> Self {
         let scene = &request.scene;
         let blank = Self {
-            warnings: request.warnings.clone(),
+            warnings: warnings(request, answer),
             statistics: StatisticsBody::new(&answer.statistics),
             ..Self::blank(request.scene_id.clone(), id(scene, scene.target()))
         };
         match &answer.verdict {
-            Verdict::Graspable(grasp) => blank.graspable(*grasp),
-            Verdict::Relocate(plan) => blank.relocate(scene, plan),
-            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock),
+            Verdict::Graspable(grasp) => blank.graspable(*grasp, answer.optimal()),
+            Verdict::Relocate(plan) => blank.relocate(scene, plan, answer.optimal()),
+            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock.as_ref()),
             Verdict::NoSpace(unplanned) => blank.unplanned(VerdictWord::NoSpace, scene, unplanned),
             Verdict::TimedOut(unplanned) => blank.unplanned(VerdictWord::TimedOut, scene, unplanned),
         }
@@ -181,7 +184,8 @@ impl AnswerBody {
     /// is known.
     pub fn unread(glance: &Glance) -> Option<Self> {
         let blank = Self::blank(glance.scene_id.clone(), glance.target.clone()?);
-        Some(Self { verdict: VerdictWord::TimedOut, ..blank }.bounded(0, Vec::new()))
+        let blank = Self { verdict: VerdictWord::TimedOut, ..blank };
+        Some(Self { lower_bound: Some(0), landmarks: Some(Vec::new()), ..blank })
     }
 
     fn blank(scene_id: Option<String>, target: String) -> Self {
@@ -202,38 +206,44 @@ impl AnswerBody {
         }
     }
 
-    fn graspable(self, grasp: Grasp) -> Self {
-        Self { cost: Some(0), optimal: Some(true), target_grasp: Some(GraspBody::new(grasp)), ..self }
-            .bounded(0, Vec::new())
+    fn graspable(self, grasp: Grasp, optimal: Option<bool>) -> Self {
+        let target_grasp = Some(GraspBody::new(grasp));
+        Self { cost: Some(0), lower_bound: Some(0), landmarks: Some(Vec::new()), optimal, target_grasp, ..self }
     }
 
-    fn relocate(self, scene: &Scene, plan: &Plan) -> Self {
-        let LowerBound { cost, landmarks } = &plan.bound;
+    fn relocate(self, scene: &Scene, plan: &Plan, optimal: Option<bool>) -> Self {
         Self {
             verdict: VerdictWord::Relocate,
             relocations: plan.relocations.iter().map(|step| RelocationBody::new(scene, step)).collect(),
             target_grasp: Some(GraspBody::new(plan.target_grasp)),
             cost: Some(plan.cost()),
-            optimal: Some(plan.optimal()),
+            optimal,
             ..self
         }
-        .bounded(*cost, landmarks.iter().map(|set| ids(scene, set)).collect())
+        .bounded(scene, plan.bound.as_ref())
     }
 
-    fn deadlock(self, scene: &Scene, deadlock: &Deadlock) -> Self {
-        let deadlock = DeadlockBody { blocked: ids(scene, &deadlock.blocked), core: ids(scene, &deadlock.core) };
-        Self { verdict: VerdictWord::Deadlock, deadlock: Some(deadlock), ..self }
+    fn deadlock(self, scene: &Scene, proof: Option<&Deadlock>) -> Self {
+        let deadlock =
+            proof.map(|proof| DeadlockBody { blocked: ids(scene, &proof.blocked), core: ids(scene, &proof.core) });
+        Self { verdict: VerdictWord::Deadlock, deadlock, ..self }
     }
 
     fn unplanned(self, verdict: VerdictWord, scene: &Scene, unplanned: &Unplanned) -> Self {
-        let LowerBound { cost, landmarks } = &unplanned.bound;
         let needed = unplanned.needed.as_ref().map(|needed| ids(scene, needed));
-        Self { verdict, needed, ..self }.bounded(*cost, landmarks.iter().map(|set| ids(scene, set)).collect())
+        Self { verdict, needed, ..self }.bounded(scene, unplanned.bound.as_ref())
     }
 
-    fn bounded(self, lower_bound: usize, landmarks: Vec<Vec<String>>) -> Self {
-        Self { lower_bound: Some(lower_bound), landmarks: Some(landmarks), ..self }
+    fn bounded(self, scene: &Scene, bound: Option<&LowerBound>) -> Self {
+        let landmarks = bound.map(|bound| bound.landmarks.iter().map(|set| ids(scene, set)).collect());
+        Self { lower_bound: bound.map(|bound| bound.cost), landmarks, ..self }
     }
+}
+
+/// What is worth knowing: about the scene first, then about the answer. Pointers lead into the request.
+pub fn warnings(request: &PlanRequest, answer: &Answer) -> Vec<ErrorItem> {
+    let of_answer = answer.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
+    request.warnings.iter().cloned().chain(of_answer).collect()
 }
 
 impl RelocationBody {

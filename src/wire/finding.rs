@@ -2,7 +2,8 @@
 
 use super::problem::ErrorItem;
 use super::reader::{Faults, Path};
-use crate::scene::{Finding, Flaw, Place};
+use crate::plan::{Cause, Warning};
+use crate::scene::{Finding, Flaw, Place, Scene};
 
 /// The code of a list of objects that is too long.
 pub(super) const TOO_MANY_OBJECTS: &str = "too_many_objects";
@@ -11,6 +12,18 @@ pub(super) const TOO_MANY_OBJECTS: &str = "too_many_objects";
 pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> ErrorItem {
     let pointer = at(scene, finding.place, &mut |path| path.to_string());
     ErrorItem { code: code(&finding.flaw), pointer, detail: finding.flaw.to_string() }
+}
+
+/// A warning about an answer. Its scene is the whole request.
+pub(super) fn warning(scene: &Scene, warning: &Warning) -> ErrorItem {
+    let pointer = match warning.cause() {
+        Cause::Setting(name) => format!("/settings/{name}"),
+        Cause::Object(id) => {
+            let at = scene.objects().iter().position(|object| object.id() == id);
+            at.map_or_else(|| "/objects".to_owned(), |at| format!("/objects/{at}"))
+        }
+    };
+    ErrorItem { code: warning.code(), pointer, detail: warning.to_string() }
 }
 
 /// A finding as a fault.

@@ -16,7 +16,7 @@ mod survey;
 mod verification;
 
 pub use answer::{
-    ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord,
+    ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord, warnings,
 };
 pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use glance::Glance;

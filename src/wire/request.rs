@@ -5,7 +5,7 @@ use core::time::Duration;
 use super::finding;
 use super::problem::{ErrorItem, Problem};
 use super::reader::{Faults, Names, Node, parse};
-use crate::plan::{Objective, Settings};
+use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
 use crate::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
 
 /// The longest scene id, characters: it stands in every log line of its request.
@@ -173,9 +173,18 @@ fn settings(
     faults: &mut Faults,
 ) -> Option<(Settings, Duration)> {
     let fields = node.fields(&SETTINGS, faults)?;
-    for (name, only) in [("grasp_model", "swept_finger"), ("search", "landmarks"), ("placement", "exact")] {
-        fields.stated(name, faults, |node, faults| node.word(&[(only, ())], faults));
-    }
+    let grasp_models = [("swept_finger", GraspModel::SweptFinger), ("sector", GraspModel::Sector)];
+    let grasp_model =
+        fields.optional("grasp_model", default.grasp_model, faults, |node, faults| node.word(&grasp_models, faults));
+    let searches = [
+        ("landmarks", SearchMethod::Landmarks),
+        ("lobs", SearchMethod::Lobs),
+        ("forward_astar", SearchMethod::ForwardAstar),
+    ];
+    let search = fields.optional("search", default.search, faults, |node, faults| node.word(&searches, faults));
+    let placements = [("exact", PlacementMethod::Exact)];
+    let placement =
+        fields.optional("placement", default.placement, faults, |node, faults| node.word(&placements, faults));
     let objectives = [("far_from_target", Objective::FarFromTarget), ("short_moves", Objective::ShortMoves)];
     let objective =
         fields.optional("objective", default.objective, faults, |node, faults| node.word(&objectives, faults));
@@ -183,5 +192,7 @@ fn settings(
     let time_limit = fields.optional("time_limit_ms", default_limit, faults, |node, faults| {
         node.whole((1, max), faults).map(Duration::from_millis)
     });
-    Some((Settings { objective: objective? }, time_limit?))
+    let settings =
+        Settings { grasp_model: grasp_model?, search: search?, placement: placement?, objective: objective? };
+    Some((settings, time_limit?))
 }

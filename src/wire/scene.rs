@@ -162,6 +162,8 @@ pub struct SettingsBody {
 pub enum GraspModelWord {
     /// The exact area that an open finger covers.
     SweptFinger,
+    /// The paper's polar histogram (Eq. 1-4, 8-10): wider than the fingers, so that it calls graspable objects blocked.
+    Sector,
 }
 
 /// How the least set of relocations is found.
@@ -171,6 +173,10 @@ pub enum GraspModelWord {
 pub enum SearchWord {
     /// Minimal landmarks and least hitting sets: exact, with a proof.
     Landmarks,
+    /// The paper's Algorithm 1, read literally: may call a deadlock what is none, and may move more than is needed.
+    Lobs,
+    /// The paper's baseline, A* forward from what is graspable: exact, slow.
+    ForwardAstar,
 }
 
 /// How new places are found.

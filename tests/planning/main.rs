@@ -5,6 +5,7 @@
 mod bases;
 mod check;
 mod generated;
+mod paper;
 mod raster;
 mod scene_bases;
 mod scenes;

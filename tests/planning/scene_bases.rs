@@ -2,7 +2,7 @@
 
 use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
-use singulate::knowledge::{KnowledgeBase, close, complete, relevant};
+use singulate::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
 use singulate::plan::{Settings, Verdict, plan};
 use singulate::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits};
 use singulate::search::{Outcome, Restriction, least};
@@ -58,14 +58,14 @@ fn the_least_set_of_a_small_crowd_is_what_exhaustion_finds() {
     let (mut derived, mut locked, mut around_the_target) = (0, 0, 0);
     for seed in 0..600 {
         let scene = crowd(seed);
-        let base = complete(&scene, &Budget::unlimited()).unwrap();
+        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
         let options = masks(&base);
         for target in scene.indices().filter(|&object| !scene.object(object).fixed()) {
             let at = target.get();
             let all = (1_u32 << options.len()) - 1;
             let expected = (0..=all).filter(|&set| set >> at & 1 == 0);
             let expected = expected.filter(|&set| follows(&options, at, set)).map(u32::count_ones).min();
-            let near = relevant(&scene, target, &Budget::unlimited()).unwrap();
+            let near = relevant(&scene, target, swept_finger_options, &Budget::unlimited()).unwrap();
             match least(&near, target, &Restriction::default(), &Budget::unlimited()) {
                 Outcome::Least(found) => {
                     assert_eq!(u32::try_from(found.bound).ok(), expected, "seed {seed} target {at}");
@@ -93,10 +93,11 @@ fn a_lock_of_a_small_crowd_holds_and_no_part_of_its_core_does() {
     let (mut locks, mut with_fixed) = (0, 0);
     for seed in 0..600 {
         let scene = crowd(seed);
-        let Verdict::Deadlock(lock) = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap().verdict else {
+        let Verdict::Deadlock(Some(lock)) = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap().verdict
+        else {
             continue;
         };
-        let base = complete(&scene, &Budget::unlimited()).unwrap();
+        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
         let options = masks(&base);
         let set = |members: &[ObjectIndex]| members.iter().fold(0_u32, |set, member| set | 1 << member.get());
         let holds = |set: u32| {
@@ -145,7 +146,7 @@ fn one_touching_fixed_plate_locks_six_fingers_and_more_but_not_five() {
         let both: Vec<ObjectIndex> = scene.indices().collect();
         match verdict {
             Verdict::Graspable(_) => assert!(fingers <= 5, "{fingers}"),
-            Verdict::Deadlock(lock) => {
+            Verdict::Deadlock(Some(lock)) => {
                 assert!(fingers >= 6, "{fingers}");
                 assert_eq!((&lock.core, &lock.blocked), (&both, &both));
             }

@@ -51,12 +51,12 @@ fn every_golden_scene_gets_its_verdict_and_its_proven_optimum() {
             Verdict::Graspable(_) => ("graspable", None),
             Verdict::Deadlock(_) => ("deadlock", None),
             Verdict::Relocate(plan) => {
-                assert!(plan.optimal(), "{name}: {} relocations, bound {}", plan.cost(), plan.bound.cost);
-                ("relocate", Some(&plan.bound))
+                assert!(plan.optimal(), "{name}: {} relocations, bound {:?}", plan.cost(), plan.bound);
+                ("relocate", plan.bound.as_ref())
             }
             Verdict::NoSpace(rest) => {
                 no_space.push(name);
-                ("relocate", Some(&rest.bound))
+                ("relocate", rest.bound.as_ref())
             }
             Verdict::TimedOut(_) => unreachable!("the budget never ends"),
         };

@@ -8,7 +8,7 @@ use singulate::scene::{Disc, ObjectDraft, ObjectIndex, RectangleDraft, Scene, Sc
 
 fn verdict(draft: SceneDraft, objective: Objective) -> Verdict {
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
-    plan(&scene, &Settings { objective }, &Budget::unlimited()).unwrap().verdict
+    plan(&scene, &Settings { objective, ..Settings::default() }, &Budget::unlimited()).unwrap().verdict
 }
 
 #[track_caller]
@@ -83,7 +83,7 @@ fn keeps_preferred_gap(scene: &Scene, object: ObjectIndex, disc: &Disc) -> bool 
 /// A move that the checker admits and that is no longer than `limit` (m), among 36 directions, 20 distances and 24 release
 /// yaws.
 fn shorter_move(scene: &Scene, verdict: &Verdict, step: &Relocation, limit: f64) -> Option<f64> {
-    let answer = Answer { verdict: verdict.clone(), statistics: Statistics::default() };
+    let answer = Answer { verdict: verdict.clone(), warnings: Vec::new(), statistics: Statistics::default() };
     let stated = Claim::of(scene, &answer);
     let plan_only = Claim { lower_bound: None, optimal: None, landmarks: None, ..stated };
     (1..=20).map(|n| limit * f64::from(n) / 20.0).find(|&distance| {
@@ -108,7 +108,7 @@ fn no_short_move_is_much_longer_than_sampling_finds() {
     let mut seen = 0;
     for seed in 0..200 {
         let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
-        let settings = Settings { objective: Objective::ShortMoves };
+        let settings = Settings { objective: Objective::ShortMoves, ..Settings::default() };
         let verdict = plan(&scene, &settings, &Budget::unlimited()).unwrap().verdict;
         let Verdict::Relocate(found) = &verdict else { continue };
         let [step] = found.relocations[..] else { continue };

@@ -17,7 +17,7 @@ const ONE_THREAD: fn(usize) -> ServerSettings =
     |queue| ServerSettings { threads: 1, queue, ..ServerSettings::default() };
 
 fn timed_out() -> Answer {
-    Answer { verdict: Verdict::TimedOut(Unplanned::default()), statistics: Statistics::default() }
+    Answer { verdict: Verdict::TimedOut(Unplanned::default()), warnings: Vec::new(), statistics: Statistics::default() }
 }
 
 /// Runs until the budget ends, and counts itself in `running` meanwhile.

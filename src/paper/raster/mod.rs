@@ -40,7 +40,7 @@ use threshold::{WHITE, threshold};
 /// Places for the objects of `order`, movable ones other than the target, moved one after the other. `None` if one of them
 /// finds no place. The raster is one of the scene's table.
 ///
-/// Grasps are the middle of the widest free interval under `shadow`. A release that has none is at the yaw of its grasp, a
+/// Grasps are the middle of the widest free interval under `model`. A release that has none is at the yaw of its grasp, a
 /// grasp that has none at 0, both with slack 0: whether such a plan can be carried out is for the checker to say.
 ///
 /// # Errors
@@ -49,11 +49,11 @@ pub fn reposition(
     scene: &Scene,
     order: &[ObjectIndex],
     raster: &Raster,
-    shadow: Shadow,
+    model: Shadow,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     let mut table =
-        Pictured { layout: Layout::new(scene, shadow), scene, convolution: Convolution::new(*raster), raster };
+        Pictured { layout: Layout::new(scene, model), scene, convolution: Convolution::new(*raster), raster };
     let mut relocations = Vec::with_capacity(order.len());
     for (at, &object) in order.iter().enumerate() {
         let Some(to) = table.place(object, &order[at + 1..], budget)? else { return Ok(None) };

@@ -15,11 +15,11 @@ fn verdicts() -> Vec<Verdict> {
     let bound = LowerBound { cost: 1, landmarks: vec![vec![b]] };
     let (from, to) = (Point2::new(0.6, 0.2), Point2::new(1.1, 0.6));
     let step = Relocation { object: b, from, to, grasp, release: grasp, gap: 0.031 };
-    let unplanned = Unplanned { bound: bound.clone(), needed: Some(vec![b]) };
+    let unplanned = Unplanned { bound: Some(bound.clone()), needed: Some(vec![b]) };
     vec![
         Verdict::Graspable(grasp),
-        Verdict::Relocate(Plan { relocations: vec![step], target_grasp: grasp, bound }),
-        Verdict::Deadlock(Deadlock { blocked: vec![ObjectIndex::new(0), b], core: vec![ObjectIndex::new(0)] }),
+        Verdict::Relocate(Plan { relocations: vec![step], target_grasp: grasp, bound: Some(bound) }),
+        Verdict::Deadlock(Some(Deadlock { blocked: vec![ObjectIndex::new(0), b], core: vec![ObjectIndex::new(0)] })),
         Verdict::NoSpace(unplanned.clone()),
         Verdict::TimedOut(unplanned),
     ]
@@ -28,7 +28,7 @@ fn verdicts() -> Vec<Verdict> {
 fn bodies() -> Vec<Value> {
     let request = read(&scene().to_string()).unwrap();
     let statistics = Statistics { knowledge: Duration::from_micros(40), ..Statistics::default() };
-    let answers = verdicts().into_iter().map(|verdict| Answer { verdict, statistics });
+    let answers = verdicts().into_iter().map(|verdict| Answer { verdict, warnings: Vec::new(), statistics });
     answers.map(|answer| serde_json::to_value(AnswerBody::new(&request, &answer)).unwrap()).collect()
 }
 

@@ -124,9 +124,9 @@ fn a_number_beyond_every_double_is_out_of_range() {
 #[test]
 fn settings_that_can_not_be_served_are_told_at_their_place() {
     for (name, value, code) in [
-        ("grasp_model", json!("sector"), "unknown_value"),
-        ("search", json!("lobs"), "unknown_value"),
-        ("placement", json!("raster"), "unknown_value"),
+        ("grasp_model", json!("cone"), "unknown_value"),
+        ("search", json!("dijkstra"), "unknown_value"),
+        ("placement", json!("grid"), "unknown_value"),
         ("objective", json!("fastest"), "unknown_value"),
         ("objective", json!(1), "wrong_type"),
         ("time_limit_ms", json!(0), "out_of_range"),

@@ -1,0 +1,74 @@
+//! What has to be moved, by the search that was asked for.
+
+use super::answer::LowerBound;
+use super::settings::{GraspModel, SearchMethod};
+use crate::budget::{Budget, Interrupted};
+use crate::knowledge::{KnowledgeBase, NoBase, complete, relevant};
+use crate::paper::{Conclusion, forward_astar, lobs};
+use crate::scene::{ObjectIndex, Scene};
+use crate::search::{Derivation, LeastSet, Outcome, Restriction, least};
+
+/// The most objects in OPEN, or in one product of premises, of LOBS: some 50 MB.
+const MAX_LOBS_MEMBERS: usize = 5_000_000;
+/// The most states of A*: some 50 MB for a scene of 64 objects.
+const MAX_ASTAR_STATES: usize = 500_000;
+/// The most words of all of A*'s sets together, which matters where there are many objects.
+const MAX_ASTAR_WORDS: usize = 4_000_000;
+
+/// What a search says.
+pub(super) enum Sought {
+    /// A least set, with proof.
+    Least(LeastSet),
+    /// The best set so far; the budget ended.
+    Best(LeastSet),
+    /// A sequence without proof.
+    Sequence(Derivation),
+    /// There is none.
+    Nothing,
+    /// The budget ended.
+    TooLate,
+    /// The memory ended.
+    TooLarge,
+}
+
+impl From<&LeastSet> for LowerBound {
+    fn from(known: &LeastSet) -> Self {
+        Self { cost: known.bound, landmarks: known.landmarks.clone() }
+    }
+}
+
+impl SearchMethod {
+    /// The base that the search needs. The forward search may relocate what has nothing to do with the target.
+    pub(super) fn base(self, scene: &Scene, model: GraspModel, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+        match self {
+            Self::Landmarks | Self::Lobs => relevant(scene, scene.target(), model.options_of(), budget),
+            Self::ForwardAstar => complete(scene, model.options_of(), budget),
+        }
+    }
+}
+
+/// Search for what frees the target.
+pub(super) fn seek(method: SearchMethod, base: &KnowledgeBase, target: ObjectIndex, budget: &Budget<'_>) -> Sought {
+    match method {
+        SearchMethod::Landmarks => match least(base, target, &Restriction::default(), budget) {
+            Outcome::Least(known) => Sought::Least(known),
+            Outcome::Underivable => Sought::Nothing,
+            Outcome::Interrupted(Some(known)) => Sought::Best(known),
+            Outcome::Interrupted(None) => Sought::TooLate,
+        },
+        SearchMethod::Lobs => concluded(lobs(base, target, MAX_LOBS_MEMBERS, budget)),
+        SearchMethod::ForwardAstar => {
+            let words = base.len().div_ceil(64);
+            concluded(forward_astar(base, target, MAX_ASTAR_STATES.min(MAX_ASTAR_WORDS / words), budget))
+        }
+    }
+}
+
+fn concluded(conclusion: Result<Conclusion, Interrupted>) -> Sought {
+    match conclusion {
+        Ok(Conclusion::Sequence(derivation)) => Sought::Sequence(derivation),
+        Ok(Conclusion::Deadlock) => Sought::Nothing,
+        Ok(Conclusion::TooLarge) => Sought::TooLarge,
+        Err(Interrupted) => Sought::TooLate,
+    }
+}
