@@ -12,6 +12,7 @@ mod problem;
 mod reader;
 mod request;
 mod scene;
+mod settings;
 mod stated;
 mod survey;
 mod verification;

@@ -186,6 +186,8 @@ pub enum SearchWord {
 pub enum PlacementWord {
     /// Candidates in the continuum.
     Exact,
+    /// The paper's: section IV.C with Eq. 7 on an image of the table; releases are not checked.
+    Raster,
 }
 
 /// Which of the free places a relocated object goes to.
