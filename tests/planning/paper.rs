@@ -3,7 +3,7 @@
 use std::fs;
 
 use singulate::budget::Budget;
-use singulate::experiments::{Recipe, generate};
+use singulate::experiments::{Recipe, generate, varied};
 use singulate::knowledge::{KnowledgeBase, OptionsOf, complete, swept_finger_options};
 use singulate::paper::{Conclusion, PolarHistogram, Raster, forward_astar, lobs, sector_options, sector_shadow};
 use singulate::plan::check::{FaultCode, check};
@@ -225,9 +225,10 @@ fn what_sectors_leave_free_the_fingers_do_too_but_not_the_other_way_round() {
 #[test]
 fn releases_without_room_become_warnings_of_a_raster_plan() {
     let (mut plans, mut faulty, mut other) = (0, 0, 0);
-    for scene in papers_scenes() {
-        for target in scene.indices() {
-            let scene = scene.with_target(target).unwrap();
+    let made_up = (0..200).map(|seed| Scene::new(varied(seed), &SceneLimits::default()).unwrap().0);
+    for scene in papers_scenes().chain(made_up) {
+        for target in scene.indices().take(6) {
+            let Some(scene) = scene.with_target(target) else { continue };
             let raster = PlacementMethod::Raster(Raster::new(0.005, scene.table()).unwrap());
             let settings = Settings { placement: raster, ..Settings::default() };
             let answer = plan(&scene, &settings, &Budget::unlimited()).unwrap();
@@ -242,7 +243,8 @@ fn releases_without_room_become_warnings_of_a_raster_plan() {
             let faults: Vec<Warning> = report.faults.iter().cloned().map(Warning::Faulty).collect();
             assert_eq!(answer.warnings, faults);
             faulty += usize::from(answer.faulty());
-            other += report.faults.iter().filter(|fault| fault.code != FaultCode::ReleaseBlocked).count();
+            let known = [FaultCode::ReleaseBlocked, FaultCode::WrongSlack];
+            other += report.faults.iter().filter(|fault| !known.contains(&fault.code)).count();
         }
     }
     assert!(plans > 30 && faulty > 0 && other == 0, "{plans} {faulty} {other}");

@@ -8,17 +8,16 @@ pub(super) const WHITE: f64 = 255.0;
 /// Eq. 7 as printed, 0 to 255: 255·(1 − 2θ/360 + sin θ/π) with the smaller of θ_g and θ_k for θ. `radius` and `clearance`
 /// (r_g) in m, `period` is θ_k = 2π/k.
 ///
-/// "The angle from the center of the circle when it overlaps by r_g" (θ_g) is read as the central angle of the segment of
-/// height r_g. For the paper's gripper and objects (r = 0.075, r_g = 0.05) that is 141.1°, so with k = 3 it is θ_k that
-/// counts: the threshold is 155.3, and 39 % of the disc may be black. That alone would let an object overlap another of its
-/// size by 19 mm, and by 43 mm with k = 2 (threshold 106.2); where they touch, 24 % are black. Hence the separate look at
-/// what stands there.
+/// "The angle from the center of the circle when it overlaps by r_g" (θ_g) is read off the formula: what that takes off,
+/// (θ − sin θ)/π of the disc, is the lens of two equal circles, and in a lens r_g wide each of the two segments is r_g/2
+/// high. For the paper's gripper and objects (r = 0.075, r_g = 0.05) θ_g is 96.4°, the threshold 199.1, and 22 % of the disc
+/// may be black: objects of one size then stay 4 mm apart by Eq. 7 alone. Smaller ones next to larger ones may not; hence
+/// the separate look at what stands there.
 ///
-/// There is another reading: what the formula takes off, (θ − sin θ)/π of the disc, is twice the segment, which is the lens
-/// of two equal circles; in a lens r_g wide each segment is r_g/2 high. θ_g would be 96.4°, the threshold 199.1, the most
-/// 22 %, and the paper's objects would stay 4 mm apart by Eq. 7 alone.
+/// Read as the angle of one segment of height r_g, θ_g would be 141.1°, and Eq. 7 alone would let the paper's objects
+/// overlap by 19 mm, against its own words.
 pub(super) fn threshold(radius: f64, clearance: f64, period: f64) -> f64 {
-    let angle = segment_angle(radius, clearance).min(period);
+    let angle = segment_angle(radius, clearance / 2.0).min(period);
     WHITE * (1.0 - angle / PI + libm::sin(angle) / PI)
 }
 
@@ -42,12 +41,12 @@ mod tests {
 
     #[test]
     fn the_threshold_is_that_of_the_printed_formula() {
-        // 255·(1 − 2·120/360 + sin 120°/π), and θ_g = 141.06° for two fingers.
-        check((0.075, 0.05, 3.0), 155.294_434_166_277_6);
-        check((0.075, 0.05, 2.0), 106.186_383_046_626_28);
+        // θ_g = 96.38°; 60° for six fingers.
+        check((0.075, 0.05, 3.0), 199.12898045865282);
+        check((0.075, 0.05, 2.0), 199.12898045865282);
         check((0.075, 0.05, 6.0), 240.294_434_166_278_48);
-        // A segment of half the disc, and what is higher than that.
-        check((0.05, 0.05, 2.0), 0.0);
+        // Segments of half the disc, and what is higher than that.
+        check((0.05, 0.1, 2.0), 0.0);
         check((0.05, 0.5, 2.0), 0.0);
         // Next to no clearance: next to nothing may be black.
         check((1e3, 1e-6, 2.0), 255.0);
@@ -64,13 +63,10 @@ mod tests {
     }
 
     #[test]
-    fn the_threshold_alone_lets_equal_discs_overlap() {
+    fn the_threshold_keeps_equal_discs_apart() {
         let (radius, clearance) = (0.075, 0.05);
-        for (fingers, overlap) in [(3.0, 0.019), (2.0, 0.043)] {
-            let most = 1.0 - threshold(radius, clearance, TAU / fingers) / WHITE;
-            let at = |overlap: f64| covered(radius, radius + clearance, 2.0 * radius - overlap);
-            assert!(at(overlap - 0.0005) < most && most < at(overlap + 0.0005), "{fingers} fingers");
-            assert!((at(0.0) - 0.245).abs() < 1e-4);
-        }
+        let most = 1.0 - threshold(radius, clearance, TAU / 3.0) / WHITE;
+        let at = |gap: f64| covered(radius, radius + clearance, 2.0 * radius + gap);
+        assert!(at(0.0032) > most && most > at(0.0042), "{most}");
     }
 }
