@@ -42,7 +42,7 @@ const SCENES: [Case; 10] = [
     ("crumbs, 7 mm, 10,000", || hard::crumbs(2.0, 0.007), None),
     ("crumbs, 16.5 mm, 10,000", || hard::crumbs(4.0, 0.0165), None),
     ("sectors, 10,000", || cases::equal_density(10_000, 0), Some(("grasp_model", "sector"))),
-    ("LOBS, deep, 300", || hard::deep(300, 12), Some(("search", "lobs"))),
+    ("LOBS, deep, 100", || hard::too_much_for_lobs(), Some(("search", "lobs"))),
     ("forward A*, locked, 200", || hard::locked(cases::equal_density(200, 0)), Some(("search", "forward_astar"))),
     ("raster, 2,500", || hard::freed_last(cases::equal_density(2500, 0)), Some(("placement", "raster"))),
 ];

@@ -32,7 +32,7 @@ const CASES: [Case; 14] = [
     ("a plate that has to move among crumbs", plate_to_move, "{}"),
     ("a plan of 299 steps among 9,900 objects", stair, "{}"),
     ("10,000 dishes, sectors", || cases::equal_density(10_000, 0), r#"{"grasp_model":"sector"}"#),
-    ("a deep cluster of 300, LOBS", || hard::deep(300, 12), r#"{"search":"lobs"}"#),
+    ("a deep cluster of 100, LOBS", || hard::too_much_for_lobs(), r#"{"search":"lobs"}"#),
     (
         "200 dishes, a locked target, forward A*",
         || hard::locked(cases::equal_density(200, 0)),

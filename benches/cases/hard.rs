@@ -23,10 +23,8 @@ pub(crate) fn pressed(objects: usize, seed: u64) -> SceneDraft {
     generate(&recipe, seed).expect("fits")
 }
 
-/// `objects` dishes in a cluster with gaps next to wide enough for four very slim fingers: the target, the one that is
-/// freed last, takes dozens of relocations.
-pub(crate) fn deep(objects: usize, seed: u64) -> SceneDraft {
-    let side = (count(objects) * 0.05 * 0.05 * core::f64::consts::PI / 0.3).sqrt();
+/// A cluster with gaps next to wide enough for four very slim fingers, and a target that LOBS does not get to the end of.
+pub(crate) fn too_much_for_lobs() -> SceneDraft {
     let gripper = GripperDraft {
         fingers: Some(4.0),
         finger_width: Some(0.008),
@@ -34,15 +32,15 @@ pub(crate) fn deep(objects: usize, seed: u64) -> SceneDraft {
         ..Recipe::default().gripper
     };
     let recipe = Recipe {
-        objects,
-        table: (side, side),
+        objects: 100,
+        table: (1.618, 1.618),
         radius: (0.04, 0.06),
         gripper,
         arrangement: Arrangement::Pressed,
         pressed_gap: 0.024,
         ..Recipe::default()
     };
-    freed_last(generate(&recipe, seed).expect("fits"))
+    SceneDraft { target: Some("o9".to_owned()), ..generate(&recipe, 0).expect("fits") }
 }
 
 /// With the object as target that chaining reaches last.
