@@ -3,6 +3,7 @@
 import statistics
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 from worker import Timing
@@ -70,8 +71,8 @@ def by_class(results: Iterable[Result]) -> dict[str, list[Result]]:
 
 
 def milliseconds(seconds: list[float]) -> str:
-    """Median and worst."""
-    return f"{1e3 * statistics.median(seconds):10.3f} {1e3 * max(seconds):10.3f}" if seconds else f"{'-':>10} {'-':>10}"
+    """Median and worst; infinite where a solver did not finish."""
+    return f"{1e3 * statistics.median(seconds):10.3f} {1e3 * max(seconds):10.3f}"
 
 
 def table(kind: str, results: list[Result]) -> str:
@@ -81,17 +82,18 @@ def table(kind: str, results: list[Result]) -> str:
     span = f"{min(optima)} to {max(optima)}" if optima else "none"
     lines = [f"{kind}: {len(results)} instances, optimum {span}, {deadlocks} deadlocks"]
     lines.append(f"  {'':<10} {'median ms':>10} {'worst ms':>10} {'solve only':>10}  unsolved")
-    ours = [r.our_seconds for r in results if r.ours]
-    lines.append(f"  {'ours':<10} {milliseconds(ours)} {'':>10}  {len(results) - len(ours)}")
-    knowledge = [r.our_seconds + r.knowledge_seconds for r in results if r.ours and r.knowledge_seconds is not None]
+    ours = [r.our_seconds if r.ours else inf for r in results]
+    lines.append(f"  {'ours':<10} {milliseconds(ours)} {'':>10}  {ours.count(inf)}")
+    knowledge = [r.our_seconds + r.knowledge_seconds for r in results if r.knowledge_seconds is not None]
     if knowledge:
         lines.append(f"  {'+knowledge':<10} {milliseconds(knowledge)}")
     for peer in [peer for peer in PEERS if peer in results[0].peers]:
-        solved = [timing for r in results if (timing := r.peers[peer])]
-        alone = f"{1e3 * statistics.median(t.solve_seconds for t in solved):10.3f}" if solved else f"{'-':>10}"
-        times = milliseconds([timing.seconds for timing in solved])
-        how = ", ".join(f"{name} {sum(t.how == name for t in solved)}" for name in dict.fromkeys(t.how for t in solved))
-        lines.append(f"  {peer:<10} {times} {alone}  {len(results) - len(solved)}  ({how})")
+        timings = [r.peers[peer] for r in results]
+        times = [timing.seconds if timing else inf for timing in timings]
+        alone = statistics.median(timing.solve_seconds if timing else inf for timing in timings)
+        ways = [timing.how for timing in timings if timing]
+        how = ", ".join(f"{name} {ways.count(name)}" for name in dict.fromkeys(ways))
+        lines.append(f"  {peer:<10} {milliseconds(times)} {1e3 * alone:10.3f}  {times.count(inf)}  ({how})")
     ratios = [ratio for r in results if r.ours and (ratio := r.ratio()) is not None]
     if ratios:
         won = sum(ratio > 1 for ratio in ratios)

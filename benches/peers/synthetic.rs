@@ -32,19 +32,28 @@ pub(crate) fn synthetic(number: usize) -> Instance {
     let (name, options) = match kind {
         0 => {
             let (vertices, edges) = GRAPHS[at % GRAPHS.len()];
-            (format!("cover of {vertices} vertices, {edges} edges"), system(&mut random, (vertices, edges, 2)))
+            (format!("vertex cover: {vertices} vertices, {edges} edges"), system(&mut random, (vertices, edges, 2)))
         }
         1 => {
             let (elements, sets, members) = SYSTEMS[at % SYSTEMS.len()];
-            (format!("{sets} sets of {members} of {elements}"), system(&mut random, (elements, sets, members)))
+            (
+                format!("hitting set: {sets} sets of {members} of {elements}"),
+                system(&mut random, (elements, sets, members)),
+            )
         }
         2 => {
             let (objects, options, members, free) = WEBS[at % WEBS.len()];
-            (format!("web of {objects}, {options}×{members}, {free} % free"), web(&mut random, WEBS[at % WEBS.len()]))
+            (
+                format!("web: {objects} objects, {options}×{members}, {free} % free"),
+                web(&mut random, WEBS[at % WEBS.len()]),
+            )
         }
         _ => {
             let (layers, width, options) = STACKS[at % STACKS.len()];
-            (format!("stack of {layers}×{width}, {options} options"), stack(&mut random, STACKS[at % STACKS.len()]))
+            (
+                format!("stack: {layers}×{width} objects, {options} options"),
+                stack(&mut random, STACKS[at % STACKS.len()]),
+            )
         }
     };
     let object = |members: Vec<usize>| members.into_iter().map(ObjectIndex::new).collect();
