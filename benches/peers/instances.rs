@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
-use singulate::knowledge::{KnowledgeBase, close, complete, relevant};
+use singulate::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
 use singulate::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
 use singulate::search::{Outcome, Restriction, least};
 
@@ -47,7 +47,7 @@ pub(crate) fn paper(number: usize) -> Instance {
     let (objects, table) = PAPER[number % PAPER.len()];
     let seed = number / PAPER.len();
     let scene = scene(&Recipe { objects, table, ..Recipe::default() }, seed);
-    let base = complete(&scene, &Budget::unlimited()).expect("small");
+    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("small");
     let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();
     let target = scene.indices().max_by_key(least).expect("not empty");
     instance(format!("N={objects} seed {seed}"), &scene, target)
@@ -94,7 +94,7 @@ fn pressed_recipe(objects: usize, gap: f64) -> Recipe {
 fn hardest(recipe: &Recipe, seed: usize) -> Instance {
     let scene = scene(recipe, seed);
     let budget = Budget::unlimited();
-    let base = complete(&scene, &budget).expect("within the limits");
+    let base = complete(&scene, swept_finger_options, &budget).expect("within the limits");
     let closure = close(&base, |_| false, &budget).expect("unlimited");
     let bound = |target: ObjectIndex| match least(&base, target, &Restriction::default(), &budget) {
         Outcome::Least(set) => set.bound,
@@ -113,7 +113,7 @@ fn scene(recipe: &Recipe, seed: usize) -> Scene {
 
 /// With the part of the base that matters to the target: what the search itself is asked.
 fn instance(name: String, scene: &Scene, target: ObjectIndex) -> Instance {
-    let work = || relevant(scene, target, &Budget::unlimited()).expect("within the limits");
+    let work = || relevant(scene, target, swept_finger_options, &Budget::unlimited()).expect("within the limits");
     let (base, knowledge) = fastest(RUNS_ALONE, work);
     Instance { name, base, target, knowledge: Some(knowledge) }
 }
@@ -132,7 +132,7 @@ pub(crate) struct Crowd {
 pub(crate) fn crowd(scene: &Scene) -> Crowd {
     let budget = Budget::unlimited();
     let work = || {
-        let base = complete(scene, &budget).expect("within the limits");
+        let base = complete(scene, swept_finger_options, &budget).expect("within the limits");
         let closure = close(&base, |_| false, &budget).expect("unlimited");
         (base, closure)
     };
