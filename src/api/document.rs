@@ -25,7 +25,7 @@ use crate::wire::{Problem, ProblemKind};
         license(name = "MIT", identifier = "MIT")
     ),
     tags(
-        (name = "planning", description = "Plans, their check, and the survey of a table."),
+        (name = "planning", description = "Plans, their check, the survey of a table, and what is known before any search."),
         (name = "operation", description = "Probes, the build, this document."),
     ),
     components(schemas(Problem))

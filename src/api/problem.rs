@@ -49,6 +49,11 @@ pub(super) fn unread() -> Problem {
     Problem::new(ProblemKind::Overloaded, "the body could not be read within its time limit")
 }
 
+/// A scene that was read, but whose answer did not get done within its time limit, and half of it is of no use.
+pub(super) fn late() -> Problem {
+    Problem::new(ProblemKind::Overloaded, "the answer was not done within the time limit")
+}
+
 /// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
 pub(super) fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };

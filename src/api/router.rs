@@ -10,7 +10,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::app::App;
-use super::{docs, document, log, plans, probes, problem, survey, verification};
+use super::{docs, document, knowledge, log, plans, probes, problem, survey, verification};
 
 /// The routes that the interface document describes.
 pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
@@ -18,6 +18,7 @@ pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(plans::plan))
         .routes(routes!(verification::verify))
         .routes(routes!(survey::survey))
+        .routes(routes!(knowledge::knowledge))
         .routes(routes!(probes::livez))
         .routes(routes!(probes::readyz))
         .routes(routes!(probes::version))

@@ -2,10 +2,10 @@
 
 use super::table::{Column, table};
 use crate::experiments::{
-    ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Spread,
-    TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
+    ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Repositioning,
+    Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
 };
-use crate::plan::{GraspModel, PlacementMethod, SearchMethod};
+use crate::plan::{GraspModel, SearchMethod};
 
 /// What nobody can repeat.
 pub(super) const NOT_THE_SAME: &str = "\
@@ -57,7 +57,8 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
     let row = |column: &Table2Column, figures: &PlacementFigures| {
         let faults = figures.faults.iter().map(|(code, count)| format!("{code} {count}"));
         let placement = match figures.placement {
-            PlacementMethod::Exact => "exact",
+            Repositioning::Raster => "raster",
+            Repositioning::Exact => "exact",
         };
         vec![
             column.case.objects.to_string(),

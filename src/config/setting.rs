@@ -52,7 +52,7 @@ const MAX_MS: u64 = 86_400_000;
 const MAX_BYTES: u64 = 1_000_000_000;
 
 /// Every setting.
-pub static SETTINGS: [Setting; 15] = [
+pub static SETTINGS: [Setting; 16] = [
     Setting {
         name: "listen",
         scope: Scope::Service,
@@ -152,6 +152,19 @@ pub static SETTINGS: [Setting; 15] = [
             Ok(())
         },
         get: |config| config.server.limits.scene.overlap_tolerance.to_string(),
+    },
+    Setting {
+        name: "raster_resolution",
+        scope: Scope::Planning,
+        placeholder: "METRES",
+        help: "The side of a pixel where a scene asks for `placement: raster`",
+        set: |config, text| {
+            let value = text.parse().ok().filter(|value| (1e-6..=1e3).contains(value));
+            let value = value.ok_or_else(|| format!("'{text}' is not a number from 0.000001 to 1000"))?;
+            config.server.limits.raster_resolution = value;
+            Ok(())
+        },
+        get: |config| config.server.limits.raster_resolution.to_string(),
     },
     Setting {
         name: "default_time_limit_ms",

@@ -22,7 +22,7 @@ pub use interval::Interval;
 pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, TABLE1_EPISODES, TABLE2_EPISODES};
 pub use spread::Spread;
 pub use table1::{MethodFigures, ModelFigures, PlanFigures, Table1Column, table1};
-pub use table2::{PlacementFigures, Table2Column, table2};
+pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
 pub use timed_search::Ending;
 pub use varied::varied;
 

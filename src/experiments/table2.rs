@@ -11,12 +11,33 @@ use super::papers_scene::{papers_scene, seed_of};
 use super::spread::Spread;
 use super::timed_search::{Ending, timed_search};
 use super::workers::{Patience, in_parallel};
+use crate::paper::{DEFAULT_RESOLUTION, Raster};
 use crate::plan::check::FaultCode;
 use crate::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
 use crate::scene::Scene;
 
 /// The ways to find places that are compared.
-const PLACEMENTS: [PlacementMethod; 1] = [PlacementMethod::Exact];
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Repositioning {
+    /// The paper's, with [`DEFAULT_RESOLUTION`] to a pixel.
+    Raster,
+    /// Ours.
+    Exact,
+}
+
+const REPOSITIONINGS: [Repositioning; 2] = [Repositioning::Raster, Repositioning::Exact];
+
+impl Repositioning {
+    fn method(self, scene: &Scene) -> PlacementMethod {
+        match self {
+            Self::Raster => {
+                let raster = Raster::new(DEFAULT_RESOLUTION, scene.table());
+                PlacementMethod::Raster(raster.expect("the paper's tables are small"))
+            }
+            Self::Exact => PlacementMethod::Exact,
+        }
+    }
+}
 
 /// So many scenes are drawn for each episode that is wanted, and no more: where the time limit is so short that LOBS never
 /// comes to an end, there is no episode at all.
@@ -30,14 +51,14 @@ pub struct Table2Column {
     /// How many scenes were drawn for the episodes.
     pub drawn: usize,
     /// Each way to find places, on the same sequences.
-    pub placements: Vec<PlacementFigures>,
+    pub placements: [PlacementFigures; 2],
 }
 
 /// One way to find places for the sequences of LOBS on the sector model's base.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacementFigures {
     /// How places are found.
-    pub placement: PlacementMethod,
+    pub placement: Repositioning,
     /// How many sequences it was given.
     pub episodes: usize,
     /// Episodes with a place for every object of the sequence.
@@ -60,6 +81,7 @@ pub struct PlacementFigures {
 
 /// What one way to find places made of one sequence.
 struct Placed {
+    placement: Repositioning,
     answer: Answer,
     time: Duration,
 }
@@ -91,10 +113,9 @@ pub fn table2(
     let mut placed = in_parallel(episodes.len(), settings.jobs, place, |count| done(count, total))?.into_iter();
     let columns = cases.iter().zip(&drawn).map(|(case, drawn)| {
         let placed: Vec<_> = placed.by_ref().take(drawn.seeds.len()).collect();
-        let figures = |(at, placement): (usize, &PlacementMethod)| {
-            PlacementFigures::new(*placement, placed.iter().map(|placed| &placed[at]))
-        };
-        let placements = PLACEMENTS.iter().enumerate().map(figures).collect();
+        let placements = REPOSITIONINGS.map(|placement| {
+            PlacementFigures::new(placement, placed.iter().flatten().filter(|placed| placed.placement == placement))
+        });
         Table2Column { case: **case, drawn: drawn.count, placements }
     });
     Ok(columns.collect())
@@ -130,23 +151,28 @@ fn draw(
 fn place(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Vec<Placed>, ExperimentError> {
     let scene = papers_scene(case, seed, patience)?.scene;
     let placed = |placement| place_by(&scene, placement, patience);
-    let placed: Result<_, _> = PLACEMENTS.into_iter().map(placed).collect();
+    let placed: Result<_, _> = REPOSITIONINGS.into_iter().map(placed).collect();
     placed.map_err(|cause| ExperimentError { objects: case.objects, seed, cause })
 }
 
-fn place_by(scene: &Scene, placement: PlacementMethod, patience: &Patience<'_>) -> Result<Placed, Cause> {
-    let settings =
-        Settings { grasp_model: GraspModel::Sector, search: SearchMethod::Lobs, placement, ..Settings::default() };
+fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) -> Result<Placed, Cause> {
+    let method = placement.method(scene);
+    let settings = Settings {
+        grasp_model: GraspModel::Sector,
+        search: SearchMethod::Lobs,
+        placement: method,
+        ..Settings::default()
+    };
     let (answer, _) = planned(scene, &settings, patience)?;
     let time = match answer.verdict {
         Verdict::TimedOut(_) => patience.limit,
         _ => answer.statistics.placement,
     };
-    Ok(Placed { answer, time })
+    Ok(Placed { placement, answer, time })
 }
 
 impl PlacementFigures {
-    fn new<'e>(placement: PlacementMethod, episodes: impl Iterator<Item = &'e Placed> + Clone) -> Self {
+    fn new<'e>(placement: Repositioning, episodes: impl Iterator<Item = &'e Placed> + Clone) -> Self {
         let count = |of: &dyn Fn(&Answer) -> bool| episodes.clone().filter(|placed| of(&placed.answer)).count();
         let mut by_code = BTreeMap::new();
         for code in episodes.clone().flat_map(|placed| faults(&placed.answer)) {

@@ -9,7 +9,7 @@ use crate::geometry::ArcSet;
 use crate::scene::ObjectIndex;
 
 /// An obstacle with its shadow on the object in question.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Blocker {
     /// The obstacle.
     pub object: ObjectIndex,

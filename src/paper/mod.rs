@@ -6,16 +6,19 @@
 //! | section IV.A, Eq. 1-4, 8-11: TG-MVFH+ | [`PolarHistogram`], [`sector_shadow`] | fingers too wide: graspable objects are called blocked; Eq. 10 undefined or short inside the ring |
 //! | section IV.B, Algorithm 1: LOBS | [`lobs`] | false deadlocks; not optimal; exponential products |
 //! | section V, the baseline: A* | [`forward_astar`] | exponential in the number of objects that can be moved |
+//! | section IV.C, Eq. 7: repositioning | [`reposition`] | releases that the gripper has no room for; no way back from a place that leaves none for a later object |
 
 mod conclusion;
 mod dnf;
 mod forward_astar;
 mod histogram;
 mod lobs;
+mod raster;
 mod sector;
 
 pub use conclusion::Conclusion;
 pub use forward_astar::forward_astar;
 pub use histogram::{PolarHistogram, SECTOR_WIDTH, sector_options};
 pub use lobs::lobs;
+pub use raster::{DEFAULT_RESOLUTION, MAX_PIXELS, MAX_SIDE, Raster, TooFine, reposition};
 pub use sector::{sector_shadow, tangent_angles};

@@ -7,7 +7,7 @@ use crate::scene::{Disc, ObjectIndex, Scene};
 
 /// The scene after some moves, with some objects lifted off the table.
 #[derive(Debug, Clone)]
-pub(super) struct Layout<'a> {
+pub struct Layout<'a> {
     scene: &'a Scene,
     model: Shadow,
     /// Per object its new place, if it was moved.
@@ -17,7 +17,8 @@ pub(super) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    pub(super) fn new(scene: &'a Scene, model: Shadow) -> Self {
+    /// The scene as it is; `model` says which yaws are free.
+    pub fn new(scene: &'a Scene, model: Shadow) -> Self {
         let count = scene.objects().len();
         Self { scene, model, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
     }
@@ -26,13 +27,14 @@ impl<'a> Layout<'a> {
         self.scene
     }
 
-    pub(super) fn disc(&self, object: ObjectIndex) -> Disc {
+    /// Where an object stands.
+    pub fn disc(&self, object: ObjectIndex) -> Disc {
         let disc = self.scene.object(object).disc();
         self.place[object.get()].map_or(disc, |centre| disc.at(centre))
     }
 
-    /// Put an object somewhere; returns what undoes it.
-    pub(super) fn put(&mut self, object: ObjectIndex, centre: Point2<f64>) -> Option<Point2<f64>> {
+    /// Put an object somewhere; returns the place that it had been moved to before.
+    pub fn put(&mut self, object: ObjectIndex, centre: Point2<f64>) -> Option<Point2<f64>> {
         let before = self.place[object.get()].replace(centre);
         if before.is_none() {
             self.moved.push(object);
@@ -68,8 +70,9 @@ impl<'a> Layout<'a> {
         in_place.chain(moved).filter(|(object, _)| !self.is_lifted(*object))
     }
 
-    /// The yaws blocked for a grasp or release of `disc`, which is `object` somewhere.
-    pub(super) fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
+    /// The yaws blocked for a grasp or release of `disc`, which is `object` somewhere, when fingers stay the margin and
+    /// `extra` (m) away from all else.
+    pub fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
         let gripper = self.scene.gripper();
         let reach = gripper.corner_distance(disc.radius) + gripper.margin() + extra;
         let shadows: Vec<ArcSet> = self
@@ -81,12 +84,13 @@ impl<'a> Layout<'a> {
     }
 
     /// How an object can be grasped where it stands.
-    pub(super) fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
+    pub fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
         widest_grasp(self.scene.gripper(), &self.blocked(object, &self.disc(object), 0.0))
     }
 
-    /// Least distance from the disc's edge to another object, m. Infinite where there is none.
-    pub(super) fn gap(&self, object: ObjectIndex, disc: &Disc) -> f64 {
+    /// Least distance from the edge of `disc`, which is `object` somewhere, to another object, m. Infinite where there is
+    /// none.
+    pub fn gap(&self, object: ObjectIndex, disc: &Disc) -> f64 {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
         others.map(|other| disc.gap(&self.disc(other))).fold(f64::INFINITY, f64::min)
     }

@@ -14,6 +14,7 @@ mod tabletop;
 
 pub use arrange::{Arrangement, Task, arrange};
 pub use effort::Effort;
+pub use layout::Layout;
 
 use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene};
@@ -59,11 +60,11 @@ pub struct Relocation {
 
 /// How an object can be grasped as the table stands.
 pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
-    layout::Layout::new(scene, model).grasp(object)
+    Layout::new(scene, model).grasp(object)
 }
 
 /// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.
-const INSIDE: f64 = 1e-6;
+pub const INSIDE: f64 = 1e-6;
 
 /// What a place keeps from others, beyond the margin, where there is room for it, m: an arm can't set dishes in contact.
 const PREFERRED_GAP: f64 = 5e-3;

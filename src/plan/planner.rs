@@ -15,6 +15,7 @@ use crate::geometry::Shadow;
 use crate::knowledge::{
     Closure, KnowledgeBase, Lock, NoBase, close, completed, fixed_blockers, lock, swept_finger_options,
 };
+use crate::paper::reposition;
 use crate::placement::{Arrangement, grasp_in_place};
 use crate::scene::Scene;
 use crate::search::Derivation;
@@ -119,6 +120,7 @@ impl Planner<'_> {
         let found = match (self.settings.placement, placing) {
             (PlacementMethod::Exact, Placing::Least) => arrange_least(&question, derivation.clone(), &budget),
             (PlacementMethod::Exact, _) => arrange_one(&question, &derivation.order, &budget),
+            (PlacementMethod::Raster(raster), _) => reposition(self.scene, &derivation.order, &raster, model, &budget),
         };
         self.statistics.placement = self.since(started);
         // Knowledge by another model proves nothing for the swept finger.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Shadow, shadow};
 use crate::knowledge::{OptionsOf, swept_finger_options};
-use crate::paper::{sector_options, sector_shadow};
+use crate::paper::{Raster, sector_options, sector_shadow};
 use crate::placement::Objective;
 
 /// How to plan.
@@ -46,6 +46,8 @@ pub enum PlacementMethod {
     /// In the continuum; releases and later grasps are checked.
     #[default]
     Exact,
+    /// The paper's: section IV.C with Eq. 7, on an image of the scene's table.
+    Raster(Raster),
 }
 
 impl Settings {

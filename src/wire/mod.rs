@@ -7,10 +7,12 @@ mod answer;
 mod claim;
 mod finding;
 mod glance;
+mod knowledge;
 mod problem;
 mod reader;
 mod request;
 mod scene;
+mod settings;
 mod stated;
 mod survey;
 mod table1;
@@ -22,6 +24,7 @@ pub use answer::{
 };
 pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use glance::Glance;
+pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use problem::{ErrorItem, Problem, ProblemKind};
 pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
 pub use scene::{

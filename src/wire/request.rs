@@ -5,7 +5,9 @@ use core::time::Duration;
 use super::finding;
 use super::problem::{ErrorItem, Problem};
 use super::reader::{Faults, Names, Node, parse};
-use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
+use super::settings::StatedSettings;
+use crate::paper::DEFAULT_RESOLUTION;
+use crate::plan::Settings;
 use crate::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
 
 /// The longest scene id, characters: it stands in every log line of its request.
@@ -20,6 +22,8 @@ pub struct RequestLimits {
     pub default_time_limit: Duration,
     /// The longest time limit that a request may name.
     pub max_time_limit: Duration,
+    /// The side of a pixel of the images on which `placement: raster` finds places, m.
+    pub raster_resolution: f64,
 }
 
 impl Default for RequestLimits {
@@ -28,6 +32,7 @@ impl Default for RequestLimits {
             scene: SceneLimits::default(),
             default_time_limit: Duration::from_millis(1000),
             max_time_limit: Duration::from_millis(60_000),
+            raster_resolution: DEFAULT_RESOLUTION,
         }
     }
 }
@@ -70,7 +75,6 @@ const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
 const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
 // A later version may know objects that are no discs.
 const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
-const SETTINGS: Names = Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms"]);
 
 pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
     let fields = node.fields(&REQUEST, faults)?;
@@ -79,8 +83,9 @@ pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Fault
     let gripper = fields.required("gripper", faults, gripper);
     let objects = fields.required("objects", faults, |node, faults| objects(node, limits, faults));
     let target = fields.required("target", faults, |node, faults| node.text(faults));
-    let default = (Settings::default(), limits.default_time_limit.min(limits.max_time_limit));
-    let settings = fields.optional("settings", default, faults, |node, faults| settings(node, default, limits, faults));
+    let settings = fields.optional("settings", StatedSettings::absent(limits), faults, |node, faults| {
+        StatedSettings::read(node, limits, faults)
+    });
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
         gripper: gripper.unwrap_or_default(),
@@ -91,7 +96,7 @@ pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Fault
     match Scene::new(draft, &limits.scene) {
         Ok((scene, warnings)) => {
             let warnings = warnings.iter().map(|warning| finding::item(node.path(), warning)).collect();
-            let (settings, time_limit) = settings?;
+            let (settings, time_limit) = settings?.on(scene.table(), limits, node, faults)?;
             Some(PlanRequest { scene, scene_id: scene_id?, settings, time_limit, warnings })
         }
         Err(findings) => {
@@ -164,35 +169,4 @@ fn object(node: Node<'_>, faults: &mut Faults) -> Option<ObjectDraft> {
         radius: fields.number("radius", faults),
         fixed: fields.stated("fixed", faults, |node, faults| node.boolean(faults)).unwrap_or_default(),
     })
-}
-
-fn settings(
-    node: Node<'_>,
-    (default, default_limit): (Settings, Duration),
-    limits: &RequestLimits,
-    faults: &mut Faults,
-) -> Option<(Settings, Duration)> {
-    let fields = node.fields(&SETTINGS, faults)?;
-    let grasp_models = [("swept_finger", GraspModel::SweptFinger), ("sector", GraspModel::Sector)];
-    let grasp_model =
-        fields.optional("grasp_model", default.grasp_model, faults, |node, faults| node.word(&grasp_models, faults));
-    let searches = [
-        ("landmarks", SearchMethod::Landmarks),
-        ("lobs", SearchMethod::Lobs),
-        ("forward_astar", SearchMethod::ForwardAstar),
-    ];
-    let search = fields.optional("search", default.search, faults, |node, faults| node.word(&searches, faults));
-    let placements = [("exact", PlacementMethod::Exact)];
-    let placement =
-        fields.optional("placement", default.placement, faults, |node, faults| node.word(&placements, faults));
-    let objectives = [("far_from_target", Objective::FarFromTarget), ("short_moves", Objective::ShortMoves)];
-    let objective =
-        fields.optional("objective", default.objective, faults, |node, faults| node.word(&objectives, faults));
-    let max = u64::try_from(limits.max_time_limit.as_millis()).unwrap_or(u64::MAX);
-    let time_limit = fields.optional("time_limit_ms", default_limit, faults, |node, faults| {
-        node.whole((1, max), faults).map(Duration::from_millis)
-    });
-    let settings =
-        Settings { grasp_model: grasp_model?, search: search?, placement: placement?, objective: objective? };
-    Some((settings, time_limit?))
 }

@@ -6,7 +6,8 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::plan::{GraspModel, PlacementMethod, SearchMethod};
+use crate::experiments::Repositioning;
+use crate::plan::{GraspModel, SearchMethod};
 use crate::scene::{Gripper, Object, Rectangle, Scene};
 
 /// A scene and how to plan for it: the body of a planning request.
@@ -187,6 +188,8 @@ pub enum SearchWord {
 pub enum PlacementWord {
     /// Candidates in the continuum.
     Exact,
+    /// The paper's: section IV.C with Eq. 7 on an image of the table; releases are not checked.
+    Raster,
 }
 
 /// Which of the free places a relocated object goes to.
@@ -263,10 +266,11 @@ impl From<SearchMethod> for SearchWord {
     }
 }
 
-impl From<PlacementMethod> for PlacementWord {
-    fn from(method: PlacementMethod) -> Self {
-        match method {
-            PlacementMethod::Exact => Self::Exact,
+impl From<Repositioning> for PlacementWord {
+    fn from(repositioning: Repositioning) -> Self {
+        match repositioning {
+            Repositioning::Raster => Self::Raster,
+            Repositioning::Exact => Self::Exact,
         }
     }
 }

@@ -34,8 +34,8 @@ pub struct Table2ColumnBody {
     pub paper: PaperRepositionBody,
     /// How many scenes were drawn for the episodes.
     pub drawn: usize,
-    /// Each way to find places, all for the same sequences.
-    pub placements: Vec<PlacementBody>,
+    /// The paper's way to find places, then ours, for the same sequences.
+    pub placements: [PlacementBody; 2],
 }
 
 /// One column as the paper prints it.
@@ -102,7 +102,7 @@ impl Table2ColumnBody {
                 reposition_s_mean: column.case.reposition_s,
             },
             drawn: column.drawn,
-            placements: column.placements.iter().map(PlacementBody::new).collect(),
+            placements: column.placements.each_ref().map(PlacementBody::new),
         }
     }
 }

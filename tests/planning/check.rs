@@ -4,5 +4,5 @@ mod faults;
 mod limits;
 mod physics;
 mod proofs;
-mod scenes;
+pub(crate) mod scenes;
 mod served;

@@ -6,6 +6,7 @@ mod bases;
 mod check;
 mod generated;
 mod paper;
+mod raster;
 mod scene_bases;
 mod scenes;
 mod space;

@@ -3,11 +3,11 @@
 use std::fs;
 
 use singulate::budget::Budget;
-use singulate::experiments::{Recipe, generate};
+use singulate::experiments::{Recipe, generate, varied};
 use singulate::knowledge::{KnowledgeBase, OptionsOf, complete, swept_finger_options};
-use singulate::paper::{Conclusion, PolarHistogram, forward_astar, lobs, sector_options, sector_shadow};
+use singulate::paper::{Conclusion, PolarHistogram, Raster, forward_astar, lobs, sector_options, sector_shadow};
 use singulate::plan::check::{FaultCode, check};
-use singulate::plan::{Answer, Claim, GraspModel, SearchMethod, Settings, Verdict, Warning, plan};
+use singulate::plan::{Answer, Claim, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning, plan};
 use singulate::scene::{ObjectIndex, Scene, SceneLimits};
 use singulate::search::{Derivation, Outcome, Restriction, least};
 use singulate::wire::{RequestLimits, read_scene};
@@ -220,6 +220,34 @@ fn what_sectors_leave_free_the_fingers_do_too_but_not_the_other_way_round() {
         }
     }
     assert!(unproven > 5 && proven > 5 && plans > 20, "{unproven} {proven} {plans}");
+}
+
+#[test]
+fn releases_without_room_become_warnings_of_a_raster_plan() {
+    let (mut plans, mut faulty, mut other) = (0, 0, 0);
+    let made_up = (0..200).map(|seed| Scene::new(varied(seed), &SceneLimits::default()).unwrap().0);
+    for scene in papers_scenes().chain(made_up) {
+        for target in scene.indices().take(6) {
+            let Some(scene) = scene.with_target(target) else { continue };
+            let raster = PlacementMethod::Raster(Raster::new(0.005, scene.table()).unwrap());
+            let settings = Settings { placement: raster, ..Settings::default() };
+            let answer = plan(&scene, &settings, &Budget::unlimited()).unwrap();
+            let Verdict::Relocate(plan) = &answer.verdict else { continue };
+            plans += 1;
+            // The bound is that of the swept finger, whatever becomes of the places.
+            assert!(plan.optimal(), "{answer:?}");
+            assert_eq!(answer.optimal(), (!answer.faulty()).then_some(true));
+            let mut claim = Claim::of(&scene, &answer);
+            claim.optimal = None;
+            let report = check(&scene, &claim, &Budget::unlimited());
+            let faults: Vec<Warning> = report.faults.iter().cloned().map(Warning::Faulty).collect();
+            assert_eq!(answer.warnings, faults);
+            faulty += usize::from(answer.faulty());
+            let known = [FaultCode::ReleaseBlocked, FaultCode::WrongSlack];
+            other += report.faults.iter().filter(|fault| !known.contains(&fault.code)).count();
+        }
+    }
+    assert!(plans > 30 && faulty > 0 && other == 0, "{plans} {faulty} {other}");
 }
 
 #[test]

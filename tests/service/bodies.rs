@@ -14,7 +14,7 @@ async fn every_fault_of_a_scene_is_told_at_once() {
     body["objects"][0]["radius"] = json!(-1);
     body["gripper"]["fingers"] = json!("three");
     body["colour"] = json!("red");
-    for path in ["/v1/plans", "/v1/survey"] {
+    for path in ["/v1/plans", "/v1/survey", "/v1/knowledge"] {
         let reply = host.post(path, &body).await;
         reply.is_problem(422, "invalid_request");
         assert_eq!(reply.pointers(), ["/colour", "/gripper/fingers", "/objects/0/radius"]);
@@ -162,7 +162,7 @@ async fn an_unknown_path_is_a_404() {
 #[tokio::test]
 async fn another_method_is_a_405_that_says_which_are_allowed() {
     let host = Host::start().await;
-    for path in ["/v1/plans", "/v1/plans/verify", "/v1/survey"] {
+    for path in ["/v1/plans", "/v1/plans/verify", "/v1/survey", "/v1/knowledge"] {
         let reply = host.get(path).await;
         reply.is_problem(405, "method_not_allowed");
         assert_eq!(reply.header("allow"), "POST");

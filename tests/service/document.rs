@@ -116,8 +116,12 @@ fn every_operation_is_described() {
 #[tokio::test]
 async fn the_examples_of_the_document_are_answered() {
     let (host, schemas) = (Host::start().await, schemas());
-    for (path, schema) in [("/v1/plans", "SceneBody"), ("/v1/survey", "SceneBody"), ("/v1/plans/verify", "VerifyBody")]
-    {
+    for (path, schema) in [
+        ("/v1/plans", "SceneBody"),
+        ("/v1/survey", "SceneBody"),
+        ("/v1/knowledge", "SceneBody"),
+        ("/v1/plans/verify", "VerifyBody"),
+    ] {
         let reply = host.post(path, &schemas[schema]["example"]).await;
         assert_eq!(reply.status, 200, "{reply:?}");
         assert!(path != "/v1/plans" || reply.json()["verdict"] == "relocate", "an example worth a look: {reply:?}");

@@ -8,5 +8,6 @@ mod document;
 mod golden;
 mod haste;
 mod host;
+mod knowledge;
 mod negotiation;
 mod planning;

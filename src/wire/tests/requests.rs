@@ -141,6 +141,15 @@ fn settings_that_can_not_be_served_are_told_at_their_place() {
 }
 
 #[test]
+fn a_table_too_large_for_a_raster_is_told_at_the_placement() {
+    let mut body = with("/settings", json!({"placement": "raster"}));
+    assert!(read(&body.to_string()).is_ok());
+    body["table"]["x_max"] = json!(1000);
+    body["table"]["y_max"] = json!(1000);
+    refuses(&body.to_string(), &[("too_fine", "/settings/placement")]);
+}
+
+#[test]
 fn a_scene_that_does_not_hold_is_told_at_its_place() {
     let far = json!({"id": "b", "x": 3, "y": 0.2, "radius": 0.075});
     let near = json!({"id": "b", "x": 0.32, "y": 0.2, "radius": 0.075});

@@ -1,0 +1,146 @@
+//! Section IV.C: new places on an image of the table.
+//!
+//! For each object in turn (the letters are those of Fig. 5): the other objects, grown by the clearance r_g, are black on
+//! white (c); the share of white under the object's mask is counted at every pixel (d), and pixels above the threshold of
+//! Eq. 7 are marked (e); of these the one farthest from the target is taken that does not interfere with what comes later
+//! (f). There is no way back: where no pixel is left, there is no arrangement.
+//!
+//! What the paper says in words and its formulas leave out holds too. A new place "does not overlap with other objects":
+//! it keeps the margin to each. It lies on the table and outside keep-outs. It leaves r_g, and the margin, round the target
+//! and round all that is still to be moved. These three are decided at the middle of each pixel by its distance, not by
+//! counting pixels: an object is put onto a pixel's middle, so no rounding to pixels takes part, and nothing is ever put
+//! onto something else. Only the counts of Eq. 7 are as coarse as the pixels.
+//!
+//! The paper's stated gap stays: whether the gripper can be opened at the new place is not asked.
+
+mod blot;
+mod convolution;
+mod grid;
+mod mask;
+#[cfg(test)]
+mod scenes;
+#[cfg(test)]
+mod tests;
+mod threshold;
+
+pub use grid::{DEFAULT_RESOLUTION, MAX_PIXELS, MAX_SIDE, Raster, TooFine};
+
+use nalgebra::Point2;
+
+use crate::budget::{Budget, Interrupted};
+use crate::geometry::{Grasp, Shadow, widest_grasp};
+use crate::placement::{Arrangement, INSIDE, Layout, Relocation};
+use crate::scene::{Disc, ObjectIndex, Scene};
+
+use blot::Blot;
+use convolution::Convolution;
+use mask::Mask;
+use threshold::{WHITE, threshold};
+
+/// Places for the objects of `order`, movable ones other than the target, moved one after the other. `None` if one of them
+/// finds no place. The raster is one of the scene's table.
+///
+/// Grasps are the middle of the widest free interval under `model`. A release that has none is at the yaw of its grasp, a
+/// grasp that has none at 0, both with slack 0: whether such a plan can be carried out is for the checker to say.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub fn reposition(
+    scene: &Scene,
+    order: &[ObjectIndex],
+    raster: &Raster,
+    model: Shadow,
+    budget: &Budget<'_>,
+) -> Result<Option<Arrangement>, Interrupted> {
+    let mut table =
+        Pictured { layout: Layout::new(scene, model), scene, convolution: Convolution::new(*raster), raster };
+    let mut relocations = Vec::with_capacity(order.len());
+    for (at, &object) in order.iter().enumerate() {
+        let Some(to) = table.place(object, &order[at + 1..], budget)? else { return Ok(None) };
+        relocations.push(table.relocate(object, to));
+    }
+    Ok(Some(Arrangement { relocations, target_grasp: table.grasp(scene.target()) }))
+}
+
+/// A layout and the images that are made of it.
+struct Pictured<'a> {
+    layout: Layout<'a>,
+    scene: &'a Scene,
+    convolution: Convolution,
+    raster: &'a Raster,
+}
+
+impl Pictured<'_> {
+    fn grasp(&self, object: ObjectIndex) -> Grasp {
+        self.layout.grasp(object).unwrap_or(Grasp { yaw: 0.0, slack: 0.0 })
+    }
+
+    fn relocate(&mut self, object: ObjectIndex, to: Point2<f64>) -> Relocation {
+        let (disc, grasp) = (self.layout.disc(object), self.grasp(object));
+        let placed = disc.at(to);
+        let release = widest_grasp(self.scene.gripper(), &self.layout.blocked(object, &placed, 0.0));
+        let release = release.unwrap_or(Grasp { slack: 0.0, ..grasp });
+        let gap = self.layout.gap(object, &placed);
+        self.layout.put(object, to);
+        Relocation { object, from: disc.centre, to, grasp, release, gap }
+    }
+
+    /// The marked place farthest from the target; the first in row order among equals.
+    fn place(
+        &mut self,
+        object: ObjectIndex,
+        later: &[ObjectIndex],
+        budget: &Budget<'_>,
+    ) -> Result<Option<Point2<f64>>, Interrupted> {
+        let (raster, top) = (self.raster, self.scene.table().top());
+        let radius = self.layout.disc(object).radius;
+        let edge = radius + INSIDE;
+        let columns = raster.columns_between(top.min().x + edge, top.max().x - edge);
+        let rows = raster.rows_between(top.min().y + edge, top.max().y - edge);
+        if columns.is_empty() || rows.is_empty() {
+            return Ok(None);
+        }
+        // Only now is it known that the mask is no larger than the image.
+        let mask = Mask::new(radius, raster.resolution());
+        let taken = blot::image(raster, &self.taken(object, later), budget)?;
+        let grown = blot::image(raster, &self.grown(object), budget)?;
+        self.convolution.run(&grown, &mask, budget)?;
+        let gripper = self.scene.gripper();
+        let least = threshold(radius, gripper.clearance(), gripper.period()) / WHITE * mask.pixels() as f64;
+        let target = self.layout.disc(self.scene.target()).centre;
+        let mut best: Option<(f64, Point2<f64>)> = None;
+        for row in rows {
+            budget.check()?;
+            for column in columns.clone() {
+                let (pixel, at) = (raster.at(column, row), raster.centre(column, row));
+                let far = (at - target).norm_squared();
+                let farthest = best.is_none_or(|(farthest, _)| far > farthest);
+                if farthest && !taken[pixel] && self.convolution.white(pixel) > least {
+                    best = Some((far, at));
+                }
+            }
+        }
+        Ok(best.map(|(_, at)| at))
+    }
+
+    fn others(&self, object: ObjectIndex) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
+        self.scene.indices().filter(move |&other| other != object).map(|other| (other, self.layout.disc(other)))
+    }
+
+    /// Fig. 5c: the other objects grown by the clearance.
+    fn grown(&self, object: ObjectIndex) -> Vec<Blot> {
+        let clearance = self.scene.gripper().clearance();
+        self.others(object).map(|(_, disc)| Blot::disc(&disc, clearance)).collect()
+    }
+
+    /// Where the object's centre may not be: too near to others, to keep-outs, to what is still to be grasped.
+    fn taken(&self, object: ObjectIndex, later: &[ObjectIndex]) -> Vec<Blot> {
+        let (gripper, radius) = (self.scene.gripper(), self.layout.disc(object).radius);
+        let apart = radius + gripper.margin() + INSIDE;
+        let around = |object: &ObjectIndex| Blot::disc(&self.layout.disc(*object), apart + gripper.clearance());
+        let keep_outs = self.scene.table().keep_out().iter().map(|area| Blot::round(area, radius + INSIDE));
+        let others = self.others(object).map(|(_, disc)| Blot::disc(&disc, apart));
+        let target = self.scene.target();
+        others.chain(keep_outs).chain(later.iter().chain([&target]).map(around)).collect()
+    }
+}

@@ -1,0 +1,68 @@
+//! What is known of each object before any search: its shadows and options.
+
+use super::settings::GraspModel;
+use crate::budget::Budget;
+use crate::geometry::{Arc, ArcSet};
+use crate::knowledge::{Blocker, KnowledgeBase, NoBase, blockers, complete};
+use crate::paper::PolarHistogram;
+use crate::scene::{ObjectIndex, Scene};
+
+/// An option with the yaws that it frees.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownOption {
+    /// All of these have to go, in index order; empty if the object is graspable now.
+    pub members: Vec<ObjectIndex>,
+    /// The yaws that are free once they have gone, rad, as arcs within [0, 2π/k]; one that runs over 0 is two.
+    pub free: Vec<Arc>,
+}
+
+/// What is known of one object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Known {
+    /// The object.
+    pub object: ObjectIndex,
+    /// Its options, none of which holds a fixed object; none at all for a fixed object.
+    pub options: Vec<KnownOption>,
+    /// The obstacles that block it at some yaw; none for a fixed object.
+    pub shadows: Vec<Blocker>,
+    /// The paper's histogram round it, where its sectors are the grasp model.
+    pub histogram: Option<PolarHistogram>,
+}
+
+/// What is known of every object, in index order.
+///
+/// # Errors
+/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+pub fn known(scene: &Scene, model: GraspModel, budget: &Budget<'_>) -> Result<Vec<Known>, NoBase> {
+    let base = complete(scene, model.options_of(), budget)?;
+    let each = scene.indices().map(|object| {
+        budget.check()?;
+        Ok(of_object(scene, &base, model, object))
+    });
+    each.collect()
+}
+
+fn of_object(scene: &Scene, base: &KnowledgeBase, model: GraspModel, object: ObjectIndex) -> Known {
+    if scene.object(object).fixed() {
+        return Known { object, options: Vec::new(), shadows: Vec::new(), histogram: None };
+    }
+    let shadows = blockers(scene, object, model.shadow());
+    let movable = |option: &&[ObjectIndex]| !option.iter().any(|member| scene.object(*member).fixed());
+    let options = base
+        .options(object)
+        .filter(movable)
+        .map(|option| KnownOption { members: option.to_vec(), free: free_without(scene, &shadows, option) });
+    let options = options.collect();
+    let histogram = (model == GraspModel::Sector).then(|| PolarHistogram::around(scene, object));
+    Known { object, options, shadows, histogram }
+}
+
+/// The yaws that no shadow covers but those of `gone`, where the interval is wide enough to count.
+fn free_without(scene: &Scene, shadows: &[Blocker], gone: &[ObjectIndex]) -> Vec<Arc> {
+    let gripper = scene.gripper();
+    let left = shadows.iter().filter(|blocker| !gone.contains(&blocker.object)).map(|blocker| &blocker.shadow);
+    let blocked = ArcSet::union(gripper.period(), left);
+    let counting = blocked.free().filter(|gap| gap.width >= gripper.min_free_width());
+    let ends: Vec<(f64, f64)> = counting.map(|gap| (gap.start, gap.start + gap.width)).collect();
+    ArcSet::fold(gripper.period(), &ends).arcs().to_vec()
+}

@@ -1,0 +1,97 @@
+//! Shadows and options as JSON.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use crate::geometry::Arc;
+use crate::paper::PolarHistogram;
+use crate::plan::Known;
+use crate::scene::{ObjectIndex, Scene};
+
+/// What is known of every object before any search.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct KnowledgeBody {
+    /// Every object, in the order of the request.
+    #[schema(example = json!([{
+        "id": "plate-1", "options": [["plate-2"]], "option_yaws": [[[0.31, 0.55]]],
+        "shadows": [{"obstacle": "plate-2", "intervals": [[0.0, 0.42]]}], "histogram": null
+    }]))]
+    pub objects: Vec<KnownObject>,
+}
+
+/// What is known of one object.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct KnownObject {
+    /// The object's id.
+    #[schema(example = "plate-1")]
+    pub id: String,
+    /// Its options, ids each: once all of one have gone, the object is graspable. An empty option: it is so now. No option:
+    /// it can never be moved.
+    #[schema(example = json!([["plate-2"], ["plate-5", "plate-7"]]))]
+    pub options: Vec<Vec<String>>,
+    /// For each option the yaws that it frees: intervals of rad within [0, 2π/k], one that runs over 0 as two.
+    #[schema(example = json!([[[0.31, 0.55]], [[1.7, 1.71]]]))]
+    pub option_yaws: Vec<Vec<[f64; 2]>>,
+    /// The obstacles that block it at some yaw.
+    #[schema(example = json!([{"obstacle": "plate-2", "intervals": [[0.0, 0.42], [1.9, 2.0943951]]}]))]
+    pub shadows: Vec<ShadowBody>,
+    /// The paper's polar histogram, where `grasp_model` is `sector`; null otherwise.
+    #[schema(required = true)]
+    pub histogram: Option<HistogramBody>,
+}
+
+/// The yaws that one obstacle blocks.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct ShadowBody {
+    /// The obstacle's id.
+    #[schema(example = "plate-2")]
+    pub obstacle: String,
+    /// Intervals of rad within [0, 2π/k], one that runs over 0 as two.
+    #[schema(example = json!([[0.0, 0.42], [1.9, 2.0943951]]))]
+    pub intervals: Vec<[f64; 2]>,
+}
+
+/// The paper's polar histogram round an object, in sectors of one degree.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct HistogramBody {
+    /// H(z) of Eq. 1, summed over the obstacles, for z = 0 … 359 degrees.
+    #[schema(max_items = 360, example = json!([0.0, 441.0, 441.0, 0.0]))]
+    pub h: Vec<f64>,
+    /// G(z) of Eq. 2 and 11 for z = 0, 1, … below 360/k degrees: zero where nothing blocks.
+    #[schema(max_items = 180, example = json!([0.0, 441.0, 882.0, 0.0]))]
+    pub g: Vec<f64>,
+}
+
+impl KnowledgeBody {
+    /// What is known of a scene's objects.
+    pub fn new(scene: &Scene, known: &[Known]) -> Self {
+        Self { objects: known.iter().map(|known| KnownObject::new(scene, known)).collect() }
+    }
+}
+
+impl KnownObject {
+    fn new(scene: &Scene, known: &Known) -> Self {
+        let id = |object: &ObjectIndex| scene.object(*object).id().to_owned();
+        let shadow = |obstacle, arcs| ShadowBody { obstacle, intervals: intervals(arcs) };
+        let blockers = known.shadows.iter();
+        Self {
+            id: id(&known.object),
+            options: known.options.iter().map(|option| option.members.iter().map(id).collect()).collect(),
+            option_yaws: known.options.iter().map(|option| intervals(&option.free)).collect(),
+            shadows: blockers.map(|blocker| shadow(id(&blocker.object), blocker.shadow.arcs())).collect(),
+            histogram: known.histogram.as_ref().map(HistogramBody::new),
+        }
+    }
+}
+
+impl HistogramBody {
+    fn new(histogram: &PolarHistogram) -> Self {
+        // To a thousandth: more digits say nothing, and there are up to 540 figures an object.
+        let short = |values: Vec<f64>| values.into_iter().map(|value| (value * 1e3).round() / 1e3).collect();
+        Self { h: short(histogram.h()), g: short(histogram.g()) }
+    }
+}
+
+fn intervals(arcs: &[Arc]) -> Vec<[f64; 2]> {
+    arcs.iter().map(|arc| [arc.lo, arc.hi]).collect()
+}

@@ -1,0 +1,81 @@
+//! How to plan, read from JSON.
+
+use core::time::Duration;
+
+use super::reader::{Faults, Names, Node};
+use super::request::RequestLimits;
+use crate::paper::Raster;
+use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
+use crate::scene::Table;
+
+const SETTINGS: Names = Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms"]);
+
+/// What a request says of its settings, as far as that can be told without its table.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StatedSettings {
+    settings: Settings,
+    raster: bool,
+    time_limit: Duration,
+}
+
+impl StatedSettings {
+    /// Where nothing is said.
+    pub(super) fn absent(limits: &RequestLimits) -> Self {
+        let time_limit = limits.default_time_limit.min(limits.max_time_limit);
+        Self { settings: Settings::default(), raster: false, time_limit }
+    }
+
+    pub(super) fn read(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Self> {
+        let absent = Self::absent(limits);
+        let fields = node.fields(&SETTINGS, faults)?;
+        let grasp_models = [("swept_finger", GraspModel::SweptFinger), ("sector", GraspModel::Sector)];
+        let grasp_model = fields.optional("grasp_model", absent.settings.grasp_model, faults, |node, faults| {
+            node.word(&grasp_models, faults)
+        });
+        let searches = [
+            ("landmarks", SearchMethod::Landmarks),
+            ("lobs", SearchMethod::Lobs),
+            ("forward_astar", SearchMethod::ForwardAstar),
+        ];
+        let search =
+            fields.optional("search", absent.settings.search, faults, |node, faults| node.word(&searches, faults));
+        let placements = [("exact", false), ("raster", true)];
+        let raster = fields.optional("placement", absent.raster, faults, |node, faults| node.word(&placements, faults));
+        let objectives = [("far_from_target", Objective::FarFromTarget), ("short_moves", Objective::ShortMoves)];
+        let objective = fields
+            .optional("objective", absent.settings.objective, faults, |node, faults| node.word(&objectives, faults));
+        let max = u64::try_from(limits.max_time_limit.as_millis()).unwrap_or(u64::MAX);
+        let time_limit = fields.optional("time_limit_ms", absent.time_limit, faults, |node, faults| {
+            node.whole((1, max), faults).map(Duration::from_millis)
+        });
+        let settings = Settings {
+            grasp_model: grasp_model?,
+            search: search?,
+            placement: PlacementMethod::Exact,
+            objective: objective?,
+        };
+        Some(Self { settings, raster: raster?, time_limit: time_limit? })
+    }
+
+    /// The settings on the table that they are for; `request` is where they stand.
+    pub(super) fn on(
+        self,
+        table: &Table,
+        limits: &RequestLimits,
+        request: Node<'_>,
+        faults: &mut Faults,
+    ) -> Option<(Settings, Duration)> {
+        let Self { settings, raster, time_limit } = self;
+        if !raster {
+            return Some((settings, time_limit));
+        }
+        match Raster::new(limits.raster_resolution, table) {
+            Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
+            Err(too_fine) => {
+                let settings = request.path().field("settings");
+                faults.add("too_fine", &settings.field("placement"), format_args!("{too_fine}"));
+                None
+            }
+        }
+    }
+}
