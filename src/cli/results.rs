@@ -44,6 +44,7 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
         Column::right("episodes"),
         Column::right("success %"),
         Column::right("paper"),
+        Column::right("graspable"),
         Column::right("no space"),
         Column::right("late"),
         Column::right("mean time"),
@@ -66,6 +67,7 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
             figures.episodes.to_string(),
             percent(figures.successes, figures.episodes),
             "100".to_owned(),
+            figures.graspable.to_string(),
             figures.no_space.to_string(),
             figures.late.to_string(),
             mean(figures.reposition_s),
@@ -84,7 +86,8 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
              for the sequences that LOBS finds by the sector model\n"
         ),
         table(&titles, rows),
-        "Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an \
+        "Times are over the episodes in which something has to be moved: all but the graspable ones.\n\
+         Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an \
          obstacle when it lets go.\n"
             .to_owned(),
         format!("{NOT_THE_SAME}\n"),

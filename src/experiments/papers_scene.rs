@@ -68,3 +68,36 @@ fn hardest(base: &KnowledgeBase) -> ObjectIndex {
     // Of equals the first, which a maximum would not give.
     base.objects().min_by_key(|object| Reverse(g_min(*object))).expect("the paper's cases have objects")
 }
+
+#[cfg(test)]
+mod tests {
+    use core::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::experiments::PAPERS_CASES;
+    use crate::paper::PolarHistogram;
+
+    #[test]
+    fn the_target_is_the_first_object_with_the_largest_g_min() {
+        let patience = Patience { limit: Duration::MAX, failed: &AtomicBool::new(false) };
+        let mut obstacles = 0;
+        for (column, case) in PAPERS_CASES.iter().enumerate() {
+            let scene = papers_scene(case, seed_of(7, column, 0), &patience).unwrap().scene;
+            let g_min = |object| {
+                let sets = PolarHistogram::around(&scene, object).local_sets();
+                sets.iter().map(Vec::len).min().unwrap()
+            };
+            let largest = scene.indices().map(g_min).max().unwrap();
+            obstacles += largest;
+            assert_eq!(scene.indices().find(|object| g_min(*object) == largest), Some(scene.target()));
+            assert_eq!(scene.objects().len(), case.objects);
+        }
+        assert!(obstacles > 6, "{obstacles}");
+    }
+
+    #[test]
+    fn no_two_episodes_share_a_seed() {
+        assert_eq!((seed_of(5, 0, 3), seed_of(5, 2, 3)), (8, 2_000_008));
+        assert_eq!(seed_of(u64::MAX, 0, 2), 1);
+    }
+}

@@ -48,7 +48,7 @@ pub struct MethodFigures {
     pub deadlocks: usize,
     /// Episodes that ended with a sequence or a deadlock.
     pub successes: usize,
-    /// Of those, sequences without any relocation: the target is graspable at once.
+    /// Of the successes, sequences without any relocation: the target is graspable at once.
     pub graspable: usize,
     /// Episodes that the time limit ended.
     pub late: usize,
@@ -218,5 +218,95 @@ impl PlanFigures {
             relocations_mean: Spread::of(costs).map(|costs| costs.mean),
             plan_s: Spread::of_times(episodes.iter().map(|episode| episode.planning)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::sync::atomic::AtomicBool;
+    use core::time::Duration;
+
+    use super::*;
+    use crate::plan::{Answer, Statistics, Unplanned};
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    fn on_base(endings: [Ending; 2]) -> OnBase {
+        let search = |(method, ending)| TimedSearch { method, ending, time: SECOND };
+        let methods = [SearchMethod::Lobs, SearchMethod::Landmarks];
+        OnBase { knowledge: SECOND, searches: methods.into_iter().zip(endings).map(search).collect() }
+    }
+
+    /// LOBS and ours agree on both bases.
+    fn agreed(sector: Ending, swept_finger: Ending, verdict: Verdict) -> Episode {
+        let answer = Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() };
+        let [sector, swept_finger] = [sector, swept_finger].map(|ending| on_base([ending; 2]));
+        Episode { sector, swept_finger, answer, planning: SECOND }
+    }
+
+    #[test]
+    fn wrong_answers_are_counted_against_our_proof_and_only_there() {
+        use Ending::{Deadlock, Late, Sequence, TooLarge};
+        let endings = [
+            [Sequence(3), Sequence(3)],
+            [Sequence(4), Sequence(3)],
+            [Sequence(0), Sequence(0)],
+            [Sequence(9), Late],
+            [Deadlock, Sequence(1)],
+            [Deadlock, Deadlock],
+            [Deadlock, Late],
+            [Late, Deadlock],
+            [TooLarge, Sequence(1)],
+        ];
+        let episodes = endings.map(on_base);
+        let figures = MethodFigures::new(SearchMethod::Lobs, episodes.iter());
+        let counts = (figures.episodes, figures.deadlocks, figures.successes, figures.late, figures.too_large);
+        assert_eq!(counts, (9, 3, 7, 1, 1));
+        assert_eq!((figures.false_deadlocks, figures.not_optimal, figures.graspable), (1, 1, 1));
+        assert_eq!(figures.relocations_mean, Some(4.0));
+        assert_eq!(figures.search_s, Some(Spread { mean: 1.0, median: 1.0 }));
+        let none = MethodFigures::new(SearchMethod::ForwardAstar, episodes.iter());
+        assert_eq!((none.episodes, none.search_s, none.relocations_mean), (0, None, None));
+    }
+
+    #[test]
+    fn an_extra_plan_is_one_where_only_the_sector_model_says_deadlock() {
+        use Ending::{Deadlock, Sequence};
+        let no_space = || Verdict::NoSpace(Unplanned::default());
+        let mut episodes = vec![
+            agreed(Deadlock, Deadlock, Verdict::Deadlock(None)),
+            agreed(Deadlock, Sequence(2), no_space()),
+            agreed(Sequence(2), Sequence(1), no_space()),
+        ];
+        let column = Table1Column::new(PAPERS_CASES[0], &episodes);
+        assert_eq!((column.plans.episodes, column.plans.deadlock, column.plans.no_space), (3, 1, 2));
+        assert_eq!((column.extra.episodes, column.extra.no_space), (1, 1));
+        assert_eq!((column.deadlock_ratio(), column.at_most_half()), (Some(0.5), true));
+        episodes.push(agreed(Deadlock, Deadlock, Verdict::Deadlock(None)));
+        assert!(!Table1Column::new(PAPERS_CASES[0], &episodes).at_most_half());
+        let column = Table1Column::new(PAPERS_CASES[0], &episodes[2..3]);
+        assert_eq!((column.deadlock_ratio(), column.at_most_half()), (None, true));
+    }
+
+    #[test]
+    fn a_column_disagrees_where_the_intervals_do_not_overlap() {
+        let disagrees = |deadlocks: usize| {
+            let ending = |at| if at < deadlocks { Ending::Deadlock } else { Ending::Sequence(1) };
+            let episode = |at| agreed(ending(at), ending(at), Verdict::Deadlock(None));
+            Table1Column::new(PAPERS_CASES[0], &(0..400).map(episode).collect::<Vec<_>>()).disagrees()
+        };
+        // The paper's 4 in 20: 8.1 to 41.6 %. 5 % of 400 are 3.3 to 7.6 %.
+        assert!(disagrees(20) && !disagrees(40) && !disagrees(160) && disagrees(200));
+    }
+
+    #[test]
+    fn in_one_of_the_papers_own_scenes_lobs_moves_one_more_than_is_needed() {
+        let patience = Patience { limit: Duration::MAX, failed: &AtomicBool::new(false) };
+        let episode = episode(&PAPERS_CASES[3], seed_of(149, 3, 0), true, &patience).unwrap();
+        let found: Vec<Ending> = episode.sector.searches.iter().map(|search| search.ending).collect();
+        assert_eq!(found, [Ending::Sequence(7), Ending::Sequence(8), Ending::Sequence(7)]);
+        let column = Table1Column::new(PAPERS_CASES[3], &[episode]);
+        let not_optimal = |method| column.sector.method(method).not_optimal;
+        assert_eq!((not_optimal(SearchMethod::Lobs), not_optimal(SearchMethod::ForwardAstar)), (1, 0));
     }
 }

@@ -63,11 +63,13 @@ pub struct PlacementFigures {
     pub episodes: usize,
     /// Episodes with a place for every object of the sequence.
     pub successes: usize,
+    /// Of those, episodes in which none is needed: the target is graspable at once.
+    pub graspable: usize,
     /// Episodes without.
     pub no_space: usize,
     /// Episodes that the time limit ended.
     pub late: usize,
-    /// Time to find the places of one episode, s; late ones count as the time limit.
+    /// Time to find the places of one episode, s, where any is needed; late ones count as the time limit.
     pub reposition_s: Option<Spread>,
     /// Plans in which the checker, which judges by the swept finger, finds any fault.
     pub faulty: usize,
@@ -174,6 +176,7 @@ fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) ->
 impl PlacementFigures {
     fn new<'e>(placement: Repositioning, episodes: impl Iterator<Item = &'e Placed> + Clone) -> Self {
         let count = |of: &dyn Fn(&Answer) -> bool| episodes.clone().filter(|placed| of(&placed.answer)).count();
+        let sought = episodes.clone().filter(|placed| !is_graspable(&placed.answer));
         let mut by_code = BTreeMap::new();
         for code in episodes.clone().flat_map(|placed| faults(&placed.answer)) {
             *by_code.entry(code.name()).or_default() += 1;
@@ -182,15 +185,20 @@ impl PlacementFigures {
             placement,
             episodes: episodes.clone().count(),
             successes: count(&|answer| matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_))),
+            graspable: count(&is_graspable),
             no_space: count(&|answer| matches!(answer.verdict, Verdict::NoSpace(_))),
             late: count(&|answer| matches!(answer.verdict, Verdict::TimedOut(_))),
-            reposition_s: Spread::of_times(episodes.clone().map(|placed| placed.time)),
+            reposition_s: Spread::of_times(sought.map(|placed| placed.time)),
             faulty: count(&Answer::faulty),
             release_blocked: count(&|answer| faults(answer).any(|code| code == FaultCode::ReleaseBlocked)),
             otherwise_faulty: count(&|answer| faults(answer).any(|code| code != FaultCode::ReleaseBlocked)),
             faults: by_code,
         }
     }
+}
+
+fn is_graspable(answer: &Answer) -> bool {
+    matches!(answer.verdict, Verdict::Graspable(_))
 }
 
 /// What the checker has against an answer.

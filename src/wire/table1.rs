@@ -105,7 +105,7 @@ pub struct MethodBody {
     pub successes: usize,
     /// Those over all episodes.
     pub success_rate: Option<f64>,
-    /// Of those, sequences without any relocation: the target is graspable at once.
+    /// Of the successes, sequences without any relocation: the target is graspable at once.
     pub graspable: usize,
     /// Episodes that the time limit ended.
     pub late: usize,

@@ -58,13 +58,15 @@ pub struct PlacementBody {
     pub episodes: usize,
     /// Episodes with a place for every object of the sequence.
     pub successes: usize,
-    /// Those over all episodes.
+    /// Of those, episodes in which none is needed: the target is graspable at once.
+    pub graspable: usize,
+    /// Successes over all episodes.
     pub success_rate: Option<f64>,
     /// Episodes without.
     pub no_space: usize,
     /// Episodes that the time limit ended.
     pub late: usize,
-    /// Mean time to find the places of one episode, s; late ones count as the time limit.
+    /// Mean time to find the places of one episode, s, where any is needed; late ones count as the time limit.
     pub reposition_s_mean: Option<f64>,
     /// Its median.
     pub reposition_s_median: Option<f64>,
@@ -113,6 +115,7 @@ impl PlacementBody {
             placement: figures.placement.into(),
             episodes: figures.episodes,
             successes: figures.successes,
+            graspable: figures.graspable,
             success_rate: rate(figures.successes, figures.episodes),
             no_space: figures.no_space,
             late: figures.late,
