@@ -31,14 +31,20 @@ const CLIENTS: [usize; 2] = [1, 8];
 /// Each row repeats its requests for so long, and no more often than that.
 const ROW: Duration = Duration::from_millis(1500);
 const MAX_ROUNDS: u128 = 10;
-type Case = (&'static str, fn() -> SceneDraft);
-const SCENES: [Case; 6] = [
-    ("pressed, 300", || hard::pressed(300, 0)),
-    ("pressed, 1,000", || hard::pressed(1000, 0)),
-    ("pressed, 10,000", || hard::pressed(10_000, 0)),
-    ("dishes at 45 %, 10,000", || cases::equal_density(10_000, 0)),
-    ("crumbs, 7 mm, 10,000", || hard::crumbs(2.0, 0.007)),
-    ("crumbs, 16.5 mm, 10,000", || hard::crumbs(4.0, 0.0165)),
+/// A name, a scene, and one of the paper's methods where it is to be planned by that.
+type Method = Option<(&'static str, &'static str)>;
+type Case = (&'static str, fn() -> SceneDraft, Method);
+const SCENES: [Case; 10] = [
+    ("pressed, 300", || hard::pressed(300, 0), None),
+    ("pressed, 1,000", || hard::pressed(1000, 0), None),
+    ("pressed, 10,000", || hard::pressed(10_000, 0), None),
+    ("dishes at 45 %, 10,000", || cases::equal_density(10_000, 0), None),
+    ("crumbs, 7 mm, 10,000", || hard::crumbs(2.0, 0.007), None),
+    ("crumbs, 16.5 mm, 10,000", || hard::crumbs(4.0, 0.0165), None),
+    ("sectors, 10,000", || cases::equal_density(10_000, 0), Some(("grasp_model", "sector"))),
+    ("LOBS, deep, 100", || hard::too_much_for_lobs(), Some(("search", "lobs"))),
+    ("forward A*, locked, 200", || hard::locked(cases::equal_density(200, 0)), Some(("search", "forward_astar"))),
+    ("raster, 2,500", || hard::freed_last(cases::equal_density(2500, 0)), Some(("placement", "raster"))),
 ];
 
 fn main() -> ExitCode {
@@ -49,12 +55,12 @@ fn main() -> ExitCode {
         "{:<24} {:>9} {:>9} {:>7} {:>8} {:>8}  answers",
         "scene", "limit ms", "at once", "count", "p99 ms", "worst"
     );
-    for (name, draft) in SCENES {
+    for (name, draft, method) in SCENES {
         let scene = cases::scene(draft());
-        println!("{name}: reading the body alone takes {:.1} ms", ms(reading(&scene)));
+        println!("{name}: reading the body alone takes {:.1} ms", ms(reading(&scene, method)));
         for limit in LIMITS_MS {
             for clients in CLIENTS {
-                let row = Row::measure(address, &request(&scene, limit), clients, Duration::from_millis(limit));
+                let row = Row::measure(address, &request(&scene, method, limit), clients, Duration::from_millis(limit));
                 println!("{name:<24} {limit:>9} {clients:>9} {row}");
                 worst = worst.max(row.worst());
             }
@@ -84,8 +90,8 @@ fn serve() -> SocketAddr {
 }
 
 /// The fastest of some readings of the scene: the least disturbed one.
-fn reading(scene: &Scene) -> Duration {
-    let body = body(scene, 1000);
+fn reading(scene: &Scene, method: Method) -> Duration {
+    let body = body(scene, method, 1000);
     let run = |_| {
         let started = Instant::now();
         read_scene(&body, &RequestLimits::default()).expect("sound");
@@ -94,14 +100,17 @@ fn reading(scene: &Scene) -> Duration {
     (0..5).map(run).min().expect("some runs")
 }
 
-fn body(scene: &Scene, limit: u64) -> Vec<u8> {
+fn body(scene: &Scene, method: Method, limit: u64) -> Vec<u8> {
     let mut body = serde_json::to_value(SceneBody::new(scene, None)).expect("JSON");
     body["settings"] = json!({"time_limit_ms": limit});
+    if let Some((setting, value)) = method {
+        body["settings"][setting] = json!(value);
+    }
     body.to_string().into_bytes()
 }
 
-fn request(scene: &Scene, limit: u64) -> Vec<u8> {
-    let body = body(scene, limit);
+fn request(scene: &Scene, method: Method, limit: u64) -> Vec<u8> {
+    let body = body(scene, method, limit);
     let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: ";
     [format!("{head}{}\r\n\r\n", body.len()).as_bytes(), &body].concat()
 }

@@ -1,9 +1,11 @@
 //! The scenes that ask the most of the service.
 
+use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::knowledge::{close, complete, swept_finger_options};
 use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
-use super::cases::count;
+use super::cases::{count, scene};
 
 /// `objects` dishes of two sizes in one pressed cluster, for a gripper with four slim fingers.
 pub(crate) fn pressed(objects: usize, seed: u64) -> SceneDraft {
@@ -19,6 +21,44 @@ pub(crate) fn pressed(objects: usize, seed: u64) -> SceneDraft {
         ..Recipe::default()
     };
     generate(&recipe, seed).expect("fits")
+}
+
+/// A cluster with gaps next to wide enough for four very slim fingers, and a target that LOBS does not get to the end of.
+pub(crate) fn too_much_for_lobs() -> SceneDraft {
+    let gripper = GripperDraft {
+        fingers: Some(4.0),
+        finger_width: Some(0.008),
+        clearance: Some(0.025),
+        ..Recipe::default().gripper
+    };
+    let recipe = Recipe {
+        objects: 100,
+        table: (1.618, 1.618),
+        radius: (0.04, 0.06),
+        gripper,
+        arrangement: Arrangement::Pressed,
+        pressed_gap: 0.024,
+        ..Recipe::default()
+    };
+    SceneDraft { target: Some("o9".to_owned()), ..generate(&recipe, 0).expect("fits") }
+}
+
+/// With the object as target that chaining reaches last.
+pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
+    let scene = scene(draft.clone());
+    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+    let closure = close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
+    let last = closure.order.last().expect("not all are locked");
+    SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }
+}
+
+/// With the first object as target that nothing can free.
+pub(crate) fn locked(draft: SceneDraft) -> SceneDraft {
+    let scene = scene(draft.clone());
+    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+    let closure = close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
+    let stuck = scene.indices().find(|object| !closure.derives(*object)).expect("some are locked");
+    SceneDraft { target: Some(scene.object(stuck).id().to_owned()), ..draft }
 }
 
 /// 10,000 crumbs, all but touching. With a clearance of 16.5 mm a grasp has as many in reach as the limit admits.

@@ -111,6 +111,10 @@ impl<'p> Chain<'p> {
         self.allowed[node as usize]
     }
 
+    pub(super) fn is_graspable(&self, node: Node) -> bool {
+        self.graspable[node as usize]
+    }
+
     /// Graspable, but not allowed to be moved: the only nodes whose permission changes anything.
     pub(super) fn is_frontier(&self, node: Node) -> bool {
         self.graspable[node as usize] && !self.allowed[node as usize]

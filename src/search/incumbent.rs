@@ -4,15 +4,16 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::chain::Chain;
+use super::pace::Pace;
 use super::problem::{Node, Problem};
-use crate::budget::{Budget, Interrupted};
+use crate::budget::Interrupted;
 
 /// A derivation by the additive estimate: an object costs one more than the members of its cheapest option together.
 /// Dijkstra's algorithm in Knuth's generalisation, then the support of the target.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub(super) fn greedy(problem: &Problem, budget: &Budget<'_>) -> Result<Vec<Node>, Interrupted> {
+pub(super) fn greedy(problem: &Problem, pace: &mut Pace<'_>) -> Result<Vec<Node>, Interrupted> {
     let nodes = problem.movable() + 1;
     let mut support: Vec<Option<u32>> = vec![None; nodes];
     let mut settled = vec![false; nodes];
@@ -27,7 +28,7 @@ pub(super) fn greedy(problem: &Problem, budget: &Budget<'_>) -> Result<Vec<Node>
         if core::mem::replace(&mut settled[node as usize], true) {
             continue;
         }
-        budget.check()?;
+        pace.step(1)?;
         support[node as usize] = Some(rule);
         if node == problem.target() {
             break;
@@ -52,27 +53,42 @@ pub(super) fn greedy(problem: &Problem, budget: &Budget<'_>) -> Result<Vec<Node>
     Ok((0..problem.target()).filter(|&node| chosen[node as usize]).collect())
 }
 
-/// An inclusion-minimal part of `set` that still derives the target, in an order in which its members can be moved;
-/// `None` if `set` does not derive it. Nodes far from the target are left out first. Where the budget ends, the part
-/// reached so far.
-pub(super) fn derivation(problem: &Problem, set: &[Node], budget: &Budget<'_>) -> Option<Vec<Node>> {
-    let run = |set: &[Node], without: Option<Node>| {
-        let mut chain = Chain::new(problem);
-        set.iter().filter(|&&node| Some(node) != without).for_each(|&node| chain.allow(node));
-        chain.reaches_target().then(|| chain.moved().collect::<Vec<_>>())
-    };
-    let mut moved = run(set, None)?;
-    let mut by_distance = moved.clone();
-    by_distance.sort_unstable();
-    for node in by_distance {
-        if budget.check().is_err() {
-            break;
-        }
-        if moved.contains(&node)
-            && let Some(fewer) = run(&moved, Some(node))
-        {
-            moved = fewer;
-        }
+/// An inclusion-minimal part of `set` from which the target follows, together with what the chain allows already, in an
+/// order in which its members can be moved; `None` if the target does not follow from `set`. What comes early in `set` is
+/// left out first. The chain comes back as it was. Where the budget ends, the part reached so far.
+pub(super) fn derivation(chain: &mut Chain<'_>, set: &[Node], pace: &mut Pace<'_>) -> Option<Vec<Node>> {
+    let start = chain.mark();
+    set.iter().for_each(|&node| chain.allow(node));
+    let follows = chain.reaches_target();
+    // What can't be moved is of no use.
+    let movable: Vec<Node> = set.iter().copied().filter(|&node| chain.is_graspable(node)).collect();
+    chain.undo(start);
+    if !follows {
+        return None;
     }
+    let mut kept = Vec::new();
+    keep(chain, &movable, &mut kept, pace);
+    kept.iter().for_each(|&node| chain.allow(node));
+    let moved = chain.moved().collect();
+    chain.undo(start);
     Some(moved)
+}
+
+/// Which of `set` are needed besides what the chain allows, by halves: much of it is left out at one stroke.
+fn keep(chain: &mut Chain<'_>, set: &[Node], kept: &mut Vec<Node>, pace: &mut Pace<'_>) {
+    if chain.reaches_target() {
+        return;
+    }
+    if set.len() <= 1 || pace.step(1 + set.len() / 16).is_err() {
+        kept.extend(set);
+        return;
+    }
+    let (early, late) = set.split_at(set.len() / 2);
+    let (mark, known) = (chain.mark(), kept.len());
+    late.iter().for_each(|&node| chain.allow(node));
+    keep(chain, early, kept, pace);
+    chain.undo(mark);
+    kept[known..].iter().for_each(|&node| chain.allow(node));
+    keep(chain, late, kept, pace);
+    chain.undo(mark);
 }

@@ -1,24 +1,25 @@
-//! New landmarks from a chain that fails.
-
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+//! New landmarks from a chain that fails, and those that need none.
 
 use super::chain::Chain;
+use super::pace::Pace;
 use super::problem::{Node, Problem};
-use crate::budget::{Budget, Interrupted};
+use crate::budget::Interrupted;
 
 /// Grow the allowed set of a chain that does not reach the target to a maximal one that still does not; return its
 /// complement, a landmark that is inclusion-minimal and disjoint from what was allowed. The chain comes back as it was.
 ///
 /// Only frontier nodes can be in the complement: permission for a node that can't be grasped changes nothing. Nodes far
 /// from the target are let go first, so that the landmark lies near the target, where it is small.
-pub(super) fn extract(problem: &Problem, chain: &mut Chain<'_>, budget: &Budget<'_>) -> Result<Vec<Node>, Interrupted> {
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(super) fn extract(problem: &Problem, chain: &mut Chain<'_>, pace: &mut Pace<'_>) -> Result<Vec<Node>, Interrupted> {
     let start = chain.mark();
     let mut landmark = Vec::new();
-    let mut frontier: BinaryHeap<Reverse<Node>> =
-        (0..problem.target()).filter(|&node| chain.is_frontier(node)).map(Reverse).collect();
-    while let Some(Reverse(node)) = frontier.pop() {
-        if budget.check().is_err() {
+    let mut frontier = Queue::new(problem.movable());
+    (0..problem.target()).filter(|&node| chain.is_frontier(node)).for_each(|node| frontier.push(node));
+    while let Some(node) = frontier.pop() {
+        if pace.step(1).is_err() {
             chain.undo(start);
             return Err(Interrupted);
         }
@@ -28,10 +29,56 @@ pub(super) fn extract(problem: &Problem, chain: &mut Chain<'_>, budget: &Budget<
             chain.undo(mark);
             landmark.push(node);
         } else {
-            frontier.extend(chain.graspable_since(mark).filter(|&node| chain.is_frontier(node)).map(Reverse));
+            chain.graspable_since(mark).filter(|&node| chain.is_frontier(node)).for_each(|node| frontier.push(node));
         }
     }
     chain.undo(start);
     landmark.sort_unstable();
     Ok(landmark)
+}
+
+/// Where every option of an object has one member that is not `forced`, these are a landmark for whoever has to grasp it.
+pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node) -> bool) -> Option<Vec<Node>> {
+    let mut landmark = Vec::new();
+    for &rule in problem.rules_of(object) {
+        let mut open = problem.body(rule).iter().filter(|&&node| !forced(node));
+        landmark.push(*open.next()?);
+        if open.next().is_some() {
+            return None;
+        }
+    }
+    landmark.sort_unstable();
+    landmark.dedup();
+    (landmark.len() > 1).then_some(landmark)
+}
+
+/// Nodes that wait, the least first.
+struct Queue {
+    waiting: Vec<u64>,
+    /// Nothing waits in the words before.
+    first: usize,
+}
+
+impl Queue {
+    fn new(nodes: usize) -> Self {
+        Self { waiting: vec![0; nodes.div_ceil(64)], first: 0 }
+    }
+
+    fn push(&mut self, node: Node) {
+        let word = node as usize / 64;
+        self.waiting[word] |= 1 << (node % 64);
+        self.first = self.first.min(word);
+    }
+
+    fn pop(&mut self) -> Option<Node> {
+        while *self.waiting.get(self.first)? == 0 {
+            self.first += 1;
+        }
+        let word = &mut self.waiting[self.first];
+        let bit = word.trailing_zeros();
+        *word &= *word - 1;
+        #[expect(clippy::cast_possible_truncation, reason = "counts nodes")]
+        let base = (self.first * 64) as Node;
+        Some(base + bit)
+    }
 }

@@ -2,9 +2,10 @@
 
 use super::chain::Chain;
 use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
+use super::pace::Pace;
 use super::problem::{Node, Problem};
 use super::reduction::reduce;
-use super::{hitting_set, incumbent, landmark, proof};
+use super::{hitting, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
@@ -22,115 +23,162 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
         let Some(node) = problem.node(object) else { return Outcome::Underivable };
         required.push(node);
     }
-    let Ok(mut search) = Search::new(&problem, required, budget) else { return Outcome::Interrupted(None) };
-    match search.run(budget) {
-        Ok(()) => Outcome::Least(search.known()),
-        Err(Interrupted) => Outcome::Interrupted(Some(search.known())),
+    let mut pace = Pace::new(budget);
+    let Ok(mut search) = Search::new(&problem, &required, &mut pace) else { return Outcome::Interrupted(None) };
+    match search.run(&mut pace) {
+        Ok(()) => Outcome::Least(search.known(&mut pace)),
+        Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut pace))),
     }
 }
 
 struct Search<'p> {
     problem: &'p Problem,
+    /// Between two questions only what is `forced` may be moved.
     chain: Chain<'p>,
-    /// Required objects stand here as landmarks with one member.
+    /// What is in every set: required, or a landmark by itself.
+    forced: Vec<Node>,
+    /// All other landmarks.
     landmarks: Vec<Vec<Node>>,
-    required: Vec<Node>,
     best: Vec<Node>,
     bound: usize,
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, required: Vec<Node>, budget: &Budget<'_>) -> Result<Self, Interrupted> {
-        let landmarks = required.iter().map(|&node| vec![node]).collect();
-        let mut search =
-            Self { problem, chain: Chain::new(problem), landmarks, bound: required.len(), required, best: Vec::new() };
-        search.best = search.minimal(&incumbent::greedy(problem, budget)?, budget);
+    fn new(problem: &'p Problem, required: &[Node], pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
+        let mut chain = Chain::new(problem);
+        required.iter().for_each(|&node| chain.allow(node));
+        let best = incumbent::greedy(problem, pace)?;
+        let best = incumbent::derivation(&mut chain, &best, pace).unwrap_or(best);
+        let (forced, bound) = (required.to_vec(), required.len());
+        let mut search = Self { problem, chain, forced, landmarks: Vec::new(), best: Vec::new(), bound };
+        search.best = search.with_forced(best);
         Ok(search)
     }
 
-    fn run(&mut self, budget: &Budget<'_>) -> Result<(), Interrupted> {
-        let required = self.required.clone();
-        let first = self.learn(&required, budget);
+    fn run(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        self.need(self.problem.target(), pace)?;
+        self.bound = self.forced.len();
+        if self.best.len() <= self.bound {
+            return Ok(());
+        }
+        let first = self.learn(&[], pace);
         // So far all are disjoint.
-        self.bound = self.landmarks.len();
+        self.bound = self.forced.len() + self.landmarks.len();
         first?;
+        self.learn_one_of_each();
         // Cheap sets first: each that fails teaches more landmarks.
         loop {
             if self.best.len() <= self.bound {
                 return Ok(());
             }
-            let candidate = hitting_set::greedy(&self.landmarks);
-            if !self.learn(&candidate, budget)? {
+            let candidate = hitting::greedy(&self.landmarks, pace)?;
+            if !self.learn(&candidate, pace)? {
                 break;
             }
         }
-        loop {
-            let hit = self.least_hitting_set(budget)?;
-            if self.best.len() <= self.bound || !self.learn(&hit, budget)? {
-                return Ok(());
+        while self.best.len() > self.bound {
+            let Some(hit) = self.least_hitting_set(pace)? else { break };
+            self.learn(&hit, pace)?;
+        }
+        Ok(())
+    }
+
+    /// A least set that meets all landmarks but those of what is forced; `None` if the best derivation is as small.
+    fn least_hitting_set(&mut self, pace: &mut Pace<'_>) -> Result<Option<Vec<Node>>, Interrupted> {
+        let forced = self.forced.len();
+        let found = hitting::least(&self.landmarks, self.best.len() - forced, pace);
+        let reached = match &found {
+            Ok(Some(hit)) => forced + hit.len(),
+            Ok(None) => self.best.len(),
+            Err(reached) => forced + reached,
+        };
+        self.bound = self.bound.max(reached);
+        found.map_err(|_| Interrupted)
+    }
+
+    /// An object is grasped in every derivation: what all its options hold is moved in every derivation, and so on.
+    fn need(&mut self, object: Node, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        let mut open = vec![object];
+        while let Some(object) = open.pop() {
+            let Some((&first, others)) = self.problem.rules_of(object).split_first() else { continue };
+            pace.step(1 + others.len() / 8)?;
+            for &node in self.problem.body(first) {
+                if !self.forced.contains(&node) && others.iter().all(|&rule| self.problem.body(rule).contains(&node)) {
+                    self.chain.allow(node);
+                    self.forced.push(node);
+                    open.push(node);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Landmarks that are seen without chaining, round what every derivation grasps.
+    fn learn_one_of_each(&mut self) {
+        for &object in self.forced.iter().chain(&[self.problem.target()]) {
+            if let Some(landmark) = landmark::one_of_each(self.problem, object, |node| self.forced.contains(&node))
+                && !self.landmarks.contains(&landmark)
+            {
+                self.landmarks.push(landmark);
             }
         }
     }
 
-    fn least_hitting_set(&mut self, budget: &Budget<'_>) -> Result<Vec<Node>, Interrupted> {
-        match hitting_set::least(&self.landmarks, budget) {
-            Ok(hit) => {
-                self.bound = self.bound.max(hit.len());
-                Ok(hit)
-            }
-            Err(reached) => {
-                self.bound = self.bound.max(reached);
-                Err(Interrupted)
-            }
-        }
-    }
-
-    /// Chain with only `candidate` movable. While the target does not follow, learn a landmark that none of what may be
-    /// moved meets, and let all its members be moved. True if anything was learnt.
-    fn learn(&mut self, candidate: &[Node], budget: &Budget<'_>) -> Result<bool, Interrupted> {
+    /// Chain with only `candidate` and what is forced movable. While the target does not follow, learn a landmark that
+    /// none of what may be moved meets, and let all its members be moved. True if anything was learnt.
+    fn learn(&mut self, candidate: &[Node], pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
         let start = self.chain.mark();
         candidate.iter().for_each(|&node| self.chain.allow(node));
-        let known = self.landmarks.len();
-        let result = loop {
-            if self.chain.reaches_target() {
-                break Ok(());
-            }
-            match landmark::extract(self.problem, &mut self.chain, budget) {
-                Ok(landmark) => {
-                    landmark.iter().for_each(|&node| self.chain.allow(node));
-                    self.landmarks.push(landmark);
-                }
-                Err(Interrupted) => break Err(Interrupted),
-            }
-        };
+        let (known, forced) = (self.landmarks.len(), self.forced.len());
+        let mut result = Ok(());
+        while result.is_ok() && !self.chain.reaches_target() {
+            result = self.learn_one(pace);
+        }
         if result.is_ok() {
             // What was learnt in one go is disjoint from the candidate and from each other.
-            let candidates: Vec<Node> = (0..self.problem.target()).filter(|&n| self.chain.is_allowed(n)).collect();
-            let minimal = self.minimal(&candidates, budget);
-            if minimal.len() < self.best.len() {
-                self.best = minimal;
+            let allowed = (0..self.problem.target()).filter(|&node| self.chain.is_allowed(node)).collect::<Vec<_>>();
+            self.chain.undo(start);
+            self.forced[forced..].iter().for_each(|&node| self.chain.allow(node));
+            if let Some(order) = incumbent::derivation(&mut self.chain, &allowed, pace)
+                && order.len() < self.best.len()
+            {
+                let order = self.with_forced(order);
+                if order.len() < self.best.len() {
+                    self.best = order;
+                }
             }
+        } else {
+            self.chain.undo(start);
         }
-        self.chain.undo(start);
-        result.map(|()| self.landmarks.len() > known)
+        result.map(|()| self.landmarks.len() + self.forced.len() > known + forced)
     }
 
-    /// A minimal derivation within the set, plus what is required.
-    fn minimal(&self, set: &[Node], budget: &Budget<'_>) -> Vec<Node> {
-        let with_required: Vec<Node> = set.iter().chain(&self.required).copied().collect();
-        let mut order =
-            incumbent::derivation(self.problem, &with_required, budget).unwrap_or_else(|| with_required.clone());
-        let missing: Vec<Node> = self.required.iter().copied().filter(|node| !order.contains(node)).collect();
+    fn learn_one(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        let landmark = landmark::extract(self.problem, &mut self.chain, pace)?;
+        landmark.iter().for_each(|&node| self.chain.allow(node));
+        if let [node] = landmark[..] {
+            self.forced.push(node);
+            self.need(node, pace)
+        } else {
+            self.landmarks.push(landmark);
+            Ok(())
+        }
+    }
+
+    /// A required object is in the set even where nothing in it makes that object graspable.
+    fn with_forced(&self, mut order: Vec<Node>) -> Vec<Node> {
+        let missing: Vec<Node> = self.forced.iter().copied().filter(|node| !order.contains(node)).collect();
         order.extend(missing);
         order
     }
 
-    fn known(&self) -> LeastSet {
+    fn known(&self, pace: &mut Pace<'_>) -> LeastSet {
         let objects = |nodes: &[Node]| nodes.iter().map(|&node| self.problem.object(node)).collect::<Vec<_>>();
-        let mut landmarks: Vec<Vec<ObjectIndex>> = self.landmarks.iter().map(|landmark| objects(landmark)).collect();
+        let landmarks = self.forced.iter().map(|&node| vec![node]).chain(self.landmarks.iter().cloned()).collect();
+        let mut landmarks: Vec<Vec<ObjectIndex>> =
+            proof::concise(landmarks, self.bound, pace).iter().map(|landmark| objects(landmark)).collect();
         landmarks.iter_mut().for_each(|landmark| landmark.sort_unstable());
         landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
-        let landmarks = proof::concise(landmarks, self.bound);
         LeastSet { derivation: Derivation { order: objects(&self.best) }, bound: self.bound, landmarks }
     }
 }

@@ -7,11 +7,12 @@
 
 mod alternatives;
 mod chain;
-mod hitting_set;
+mod hitting;
 mod incumbent;
 mod landmark;
 mod least;
 mod outcome;
+mod pace;
 mod problem;
 mod proof;
 mod reduction;

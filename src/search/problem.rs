@@ -14,6 +14,8 @@ pub(super) struct Problem {
     objects: Vec<ObjectIndex>,
     /// Per rule its head.
     heads: Vec<Node>,
+    /// Per node its rules.
+    options: Lists,
     bodies: Lists,
     condition_of: Lists,
 }
@@ -71,7 +73,8 @@ impl Problem {
         budget.check()?;
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
         budget.check()?;
-        Ok(Self { objects, heads, bodies, condition_of })
+        let options = Lists::from_pairs(objects.len(), heads.iter().copied().zip(0..));
+        Ok(Self { objects, heads, options, bodies, condition_of })
     }
 
     /// The number of nodes besides the target.
@@ -91,6 +94,10 @@ impl Problem {
 
     pub(super) fn head(&self, rule: u32) -> Node {
         self.heads[rule as usize]
+    }
+
+    pub(super) fn rules_of(&self, node: Node) -> &[u32] {
+        self.options.get(node)
     }
 
     pub(super) fn body(&self, rule: u32) -> &[Node] {

@@ -1,0 +1,208 @@
+//! An instance as bits, read both ways, and the few changes of which everything else is made.
+
+use super::bits::Bits;
+use crate::search::problem::Node;
+
+/// Sets to be met by as few elements as can be.
+#[derive(Debug, Clone)]
+pub(super) struct Instance {
+    /// Per element the node that it stands for.
+    labels: Vec<Node>,
+    /// Per set its elements.
+    members: Bits,
+    /// Per element the sets that it meets.
+    met: Bits,
+    /// One row: the sets still to be met.
+    open: Bits,
+    /// Per set its price, see [`super::prices`].
+    pub(super) prices: Vec<f64>,
+    /// One row each: what [`super::reduce`] has to look at again.
+    pub(super) shrunk_sets: Bits,
+    pub(super) shrunk_elements: Bits,
+}
+
+/// What is decided about a least solution.
+#[derive(Debug, Default)]
+pub(super) struct Decided {
+    taken: Vec<Node>,
+    folds: Vec<Fold>,
+}
+
+/// Three elements of which a least solution holds either the `centre` alone or both others; `kept` stands for those two.
+#[derive(Debug)]
+struct Fold {
+    centre: Node,
+    kept: Node,
+    other: Node,
+}
+
+impl Decided {
+    /// How many elements of a solution are decided.
+    pub(super) fn count(&self) -> usize {
+        self.taken.len() + self.folds.len()
+    }
+
+    /// The whole solution, given that of the rest.
+    pub(super) fn complete(&self, mut rest: Vec<Node>) -> Vec<Node> {
+        rest.extend(&self.taken);
+        for fold in self.folds.iter().rev() {
+            let both = rest.contains(&fold.kept);
+            rest.push(if both { fold.other } else { fold.centre });
+        }
+        rest
+    }
+}
+
+impl Instance {
+    /// All sets open, everything to be looked at. Members need no order.
+    pub(super) fn new(sets: &[Vec<Node>]) -> Self {
+        let mut labels: Vec<Node> = sets.iter().flatten().copied().collect();
+        labels.sort_unstable();
+        labels.dedup();
+        let mut number = vec![0; labels.last().map_or(0, |&last| last as usize + 1)];
+        labels.iter().enumerate().for_each(|(at, &label)| number[label as usize] = at);
+        let mut members = Bits::new(sets.len(), labels.len());
+        let mut met = Bits::new(labels.len(), sets.len());
+        for (set, nodes) in sets.iter().enumerate() {
+            for &node in nodes {
+                members.set(set, number[node as usize]);
+                met.set(number[node as usize], set);
+            }
+        }
+        Self {
+            shrunk_sets: Bits::full(sets.len()),
+            shrunk_elements: Bits::full(labels.len()),
+            open: Bits::full(sets.len()),
+            prices: vec![0.0; sets.len()],
+            labels,
+            members,
+            met,
+        }
+    }
+
+    pub(super) fn elements(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// Some of them met already.
+    pub(super) fn sets(&self) -> usize {
+        self.prices.len()
+    }
+
+    pub(super) fn members(&self) -> &Bits {
+        &self.members
+    }
+
+    pub(super) fn met(&self) -> &Bits {
+        &self.met
+    }
+
+    pub(super) fn is_open(&self, set: usize) -> bool {
+        self.open.has(0, set)
+    }
+
+    /// The element is in the solution.
+    pub(super) fn take(&mut self, element: usize, decided: &mut Decided) {
+        decided.taken.push(self.labels[element]);
+        self.meet_all(element);
+    }
+
+    fn meet_all(&mut self, element: usize) {
+        let mut at = 0;
+        while let Some(set) = self.met.next(element, at) {
+            at = set + 1;
+            self.meet(set);
+        }
+    }
+
+    /// The set needs no more attention.
+    pub(super) fn meet(&mut self, set: usize) {
+        self.open.clear(0, set);
+        for element in self.members.ones(set) {
+            self.met.clear(element, set);
+            self.shrunk_elements.set(0, element);
+        }
+        self.members.clear_row(set);
+    }
+
+    /// The element is not in the solution.
+    pub(super) fn exclude(&mut self, element: usize) {
+        for set in self.met.ones(element) {
+            self.members.clear(set, element);
+            self.shrunk_sets.set(0, set);
+        }
+        self.met.clear_row(element);
+    }
+
+    /// `centre` is in two sets, each with one other element: a least solution holds it alone or both others. They become
+    /// one element, which is in the solution if both are.
+    pub(super) fn fold(&mut self, centre: usize, kept: usize, other: usize, decided: &mut Decided) {
+        let label = |element: usize| self.labels[element];
+        decided.folds.push(Fold { centre: label(centre), kept: label(kept), other: label(other) });
+        self.meet_all(centre);
+        let mut at = 0;
+        while let Some(set) = self.met.next(other, at) {
+            at = set + 1;
+            self.members.clear(set, other);
+            self.members.set(set, kept);
+            self.met.set(kept, set);
+        }
+        self.met.clear_row(other);
+        // Sets may have become alike, and elements may have met their better.
+        for set in self.met.ones(kept) {
+            self.shrunk_sets.set(0, set);
+            self.members.ones(set).for_each(|element| self.shrunk_elements.set(0, element));
+        }
+    }
+
+    /// What is open, in parts that share no element.
+    pub(super) fn parts(&self) -> Vec<Self> {
+        let mut left = self.open.clone();
+        let mut seen = Bits::new(1, self.elements());
+        let mut parts = Vec::new();
+        while let Some(first) = left.next(0, 0) {
+            left.clear(0, first);
+            let (mut sets, mut elements, mut at) = (vec![first], Vec::new(), 0);
+            while let Some(&set) = sets.get(at) {
+                at += 1;
+                for element in self.members.ones(set) {
+                    if seen.has(0, element) {
+                        continue;
+                    }
+                    seen.set(0, element);
+                    elements.push(element);
+                    for other in self.met.ones(element).filter(|&other| left.has(0, other)) {
+                        sets.push(other);
+                    }
+                    sets[at..].iter().for_each(|&other| left.clear(0, other));
+                }
+            }
+            sets.sort_unstable();
+            elements.sort_unstable();
+            parts.push(self.part(&sets, &elements));
+        }
+        parts
+    }
+
+    fn part(&self, sets: &[usize], elements: &[usize]) -> Self {
+        let mut number = vec![0; self.elements()];
+        elements.iter().enumerate().for_each(|(at, &element)| number[element] = at);
+        let mut members = Bits::new(sets.len(), elements.len());
+        let mut met = Bits::new(elements.len(), sets.len());
+        for (at, &set) in sets.iter().enumerate() {
+            for element in self.members.ones(set) {
+                members.set(at, number[element]);
+                met.set(number[element], at);
+            }
+        }
+        Self {
+            labels: elements.iter().map(|&element| self.labels[element]).collect(),
+            members,
+            met,
+            open: Bits::full(sets.len()),
+            prices: sets.iter().map(|&set| self.prices[set]).collect(),
+            shrunk_sets: Bits::new(1, sets.len()),
+            shrunk_elements: Bits::new(1, elements.len()),
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What can be decided without a choice.
+
+use smallvec::SmallVec;
+
+use super::instance::{Decided, Instance};
+use crate::budget::Interrupted;
+use crate::search::pace::Pace;
+
+/// Decide until nothing obvious is left: the only member of a set is taken; a set that holds another needs no attention;
+/// an element is left out if another one meets the same sets and perhaps more; three elements fold into one. `false` if
+/// some set has no member left.
+pub(super) fn reduce(instance: &mut Instance, decided: &mut Decided, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+    loop {
+        pace.step(1)?;
+        if let Some(set) = instance.shrunk_sets.next(0, 0) {
+            instance.shrunk_sets.clear(0, set);
+            if instance.is_open(set) && !settle_set(instance, set, decided) {
+                return Ok(false);
+            }
+        } else if let Some(element) = instance.shrunk_elements.next(0, 0) {
+            instance.shrunk_elements.clear(0, element);
+            settle_element(instance, element, decided);
+        } else {
+            return Ok(true);
+        }
+    }
+}
+
+fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> bool {
+    let mut elements = instance.members().ones(set);
+    let Some(first) = elements.next() else { return false };
+    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.met().row(first));
+    let mut single = true;
+    for element in elements {
+        single = false;
+        common.iter_mut().zip(instance.met().row(element)).for_each(|(word, other)| *word &= other);
+    }
+    if single {
+        instance.take(first, decided);
+        return true;
+    }
+    // What meets this set meets all that hold it.
+    common[set / 64] &= !(1 << (set % 64));
+    for_each_one(&common, |larger| instance.meet(larger));
+    true
+}
+
+fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided) {
+    let mut sets = instance.met().ones(element);
+    let Some(first) = sets.next() else { return };
+    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.members().row(first));
+    let mut count = 1;
+    let mut second = first;
+    for set in sets {
+        common.iter_mut().zip(instance.members().row(set)).for_each(|(word, other)| *word &= other);
+        second = set;
+        count += 1;
+    }
+    common[element / 64] &= !(1 << (element % 64));
+    if common.iter().any(|word| *word != 0) {
+        instance.exclude(element);
+    } else if count == 2 && instance.members().count(first) == 2 && instance.members().count(second) == 2 {
+        let other = |set: usize| instance.members().ones(set).find(|&member| member != element);
+        if let (Some(kept), Some(other)) = (other(first), other(second)) {
+            instance.fold(element, kept, other, decided);
+        }
+    }
+}
+
+fn for_each_one(words: &[u64], mut act: impl FnMut(usize)) {
+    for (at, &word) in words.iter().enumerate() {
+        let mut rest = word;
+        while rest != 0 {
+            act(at * 64 + rest.trailing_zeros() as usize);
+            rest &= rest - 1;
+        }
+    }
+}

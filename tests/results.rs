@@ -1,0 +1,22 @@
+//! The page of results is what its command writes.
+
+#[path = "../benches/results/figures.rs"]
+mod figures;
+#[path = "../benches/results/page.rs"]
+mod page;
+#[path = "../benches/results/peers_page.rs"]
+mod peers_page;
+#[path = "../benches/results/plots.rs"]
+mod plots;
+
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn the_results_are_what_their_command_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (path, text) in page::files() {
+        let committed = fs::read_to_string(root.join(path)).unwrap();
+        assert!(committed == text, "rewrite {path}: cargo bench --bench results");
+    }
+}
