@@ -18,7 +18,7 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn start() -> Self {
-        let style = ProgressStyle::with_template("{elapsed_precise} [{wide_bar}] {pos} of {len} episodes")
+        let style = ProgressStyle::with_template("{elapsed_precise} [{wide_bar}] {pos} of {len} done")
             .expect("the template is sound");
         let bar = ProgressBar::new(0).with_style(style.progress_chars("=> "));
         if !bar.is_hidden() {
@@ -28,12 +28,12 @@ impl Progress {
         Self { bar, told: Instant::now() }
     }
 
-    /// So many episodes are done.
+    /// So much is done.
     pub(super) fn tell(&mut self, done: usize, total: usize) {
         if self.bar.is_hidden() && self.told.elapsed() >= LINE_EVERY {
             self.told = Instant::now();
             // Nobody can be told where stderr is gone.
-            let _ = writeln!(std::io::stderr(), "{done} of {total} episodes");
+            let _ = writeln!(std::io::stderr(), "{done} of {total} done");
         }
         self.bar.set_length(total as u64);
         self.bar.set_position(done as u64);

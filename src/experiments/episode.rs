@@ -28,58 +28,73 @@ pub(super) struct Episode {
 pub(super) struct OnBase {
     /// How long the base took.
     pub(super) knowledge: Duration,
-    /// The baseline only where it was asked for; ours last.
-    pub(super) searches: Vec<TimedSearch>,
+    /// Only where it was asked for.
+    pub(super) baseline: Option<TimedSearch>,
+    pub(super) lobs: TimedSearch,
+    /// Its ending is a proof unless it was late.
+    pub(super) ours: TimedSearch,
 }
 
 impl OnBase {
-    fn new(
-        knowledge: Duration,
-        base: &KnowledgeBase,
-        target: ObjectIndex,
-        with_baseline: bool,
-        patience: &Patience<'_>,
-    ) -> Self {
-        let baseline = with_baseline.then_some(SearchMethod::ForwardAstar);
-        let methods = baseline.into_iter().chain([SearchMethod::Lobs, SearchMethod::Landmarks]);
-        Self { knowledge, searches: methods.map(|method| timed_search(method, base, target, patience)).collect() }
+    fn new(knowledge: Duration, base: &KnowledgeBase, target: ObjectIndex, patience: &Patience<'_>) -> Self {
+        let run = |method| timed_search(method, base, target, patience);
+        Self { knowledge, baseline: None, lobs: run(SearchMethod::Lobs), ours: run(SearchMethod::Landmarks) }
     }
 
-    /// How our own search ended; a proof unless it was late.
-    pub(super) fn ours(&self) -> Ending {
-        self.searches[self.searches.len() - 1].ending
+    /// What one of the methods did.
+    pub(super) fn search(&self, method: SearchMethod) -> Option<&TimedSearch> {
+        match method {
+            SearchMethod::ForwardAstar => self.baseline.as_ref(),
+            SearchMethod::Lobs => Some(&self.lobs),
+            SearchMethod::Landmarks => Some(&self.ours),
+        }
     }
 }
 
-/// The episode of one seed.
-pub(super) fn episode(
-    case: &PapersCase,
-    seed: u64,
-    with_baseline: bool,
-    patience: &Patience<'_>,
-) -> Result<Episode, ExperimentError> {
+/// The episode of one seed, without the baseline.
+pub(super) fn episode(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Episode, ExperimentError> {
     let failed = |cause| ExperimentError { objects: case.objects, seed, cause };
     let PapersScene { scene, sector, knowledge } = papers_scene(case, seed, patience)?;
-    let sector = OnBase::new(knowledge, &sector, scene.target(), with_baseline, patience);
+    let sector = OnBase::new(knowledge, &sector, scene.target(), patience);
 
     let watch = patience.watch();
     let base = complete_base(case, seed, &scene, GraspModel::SweptFinger, &watch)?;
-    let mut swept_finger = OnBase::new(watch.elapsed(), &base, scene.target(), with_baseline, patience);
+    let mut swept_finger = OnBase::new(watch.elapsed(), &base, scene.target(), patience);
 
     let (answer, planning) = planned(&scene, &Settings::default(), patience).map_err(failed)?;
     for on_base in [&sector, &swept_finger] {
-        refutation(on_base).map_or(Ok(()), |cause| Err(failed(cause)))?;
+        not_refuted(on_base.lobs.ending, on_base.ours.ending).map_err(failed)?;
     }
-    if !agree(swept_finger.ours(), &answer.verdict) {
-        return Err(failed(Cause::Contradicted(swept_finger.ours())));
+    if !agree(swept_finger.ours.ending, &answer.verdict) {
+        return Err(failed(Cause::Contradicted(swept_finger.ours.ending)));
     }
     // By the swept finger only what is planned and checked counts as ours.
-    if matches!(answer.verdict, Verdict::TimedOut(_))
-        && let Some(ours) = swept_finger.searches.last_mut()
-    {
-        (ours.ending, ours.time) = (Ending::Late, patience.limit);
+    if matches!(answer.verdict, Verdict::TimedOut(_)) {
+        (swept_finger.ours.ending, swept_finger.ours.time) = (Ending::Late, patience.limit);
     }
     Ok(Episode { sector, swept_finger, answer, planning })
+}
+
+/// The baseline in the scene of one seed: by the sector model, then by the swept finger.
+pub(super) fn baseline(
+    case: &PapersCase,
+    seed: u64,
+    patience: &Patience<'_>,
+) -> Result<[TimedSearch; 2], ExperimentError> {
+    let PapersScene { scene, sector, .. } = papers_scene(case, seed, patience)?;
+    let swept_finger = complete_base(case, seed, &scene, GraspModel::SweptFinger, &patience.watch())?;
+    Ok([sector, swept_finger].map(|base| timed_search(SearchMethod::ForwardAstar, &base, scene.target(), patience)))
+}
+
+impl Episode {
+    /// Add what the baseline did in the same scene.
+    pub(super) fn add(&mut self, baseline: [TimedSearch; 2]) -> Result<(), Cause> {
+        for (on_base, search) in [&mut self.sector, &mut self.swept_finger].into_iter().zip(baseline) {
+            not_refuted(search.ending, on_base.ours.ending)?;
+            on_base.baseline = Some(search);
+        }
+        Ok(())
+    }
 }
 
 /// The planner's answer, and how long it took.
@@ -93,17 +108,15 @@ pub(super) fn planned(
     Ok((answer, watch.elapsed()))
 }
 
-/// The first search that does better than ours proves possible. What the paper's searches find are derivations, so that
-/// this would be a fault in our proof.
-fn refutation(on_base: &OnBase) -> Option<Cause> {
-    let proven = on_base.ours();
-    let refutes = |ending: Ending| match (ending, proven) {
+/// No other search does better than ours proves possible: what they find are derivations, so that this would be a fault
+/// in our proof.
+fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
+    let refuted = match (ending, proven) {
         (Ending::Sequence(found), Ending::Sequence(least)) => found < least,
         (Ending::Sequence(_), Ending::Deadlock) => true,
         _ => false,
     };
-    let found = on_base.searches.iter().find(|search| refutes(search.ending))?;
-    Some(Cause::Refuted { ending: found.ending, proven })
+    if refuted { Err(Cause::Refuted { ending, proven }) } else { Ok(()) }
 }
 
 /// True if search and planner say the same, as far as each got.
@@ -127,14 +140,9 @@ mod tests {
     use super::*;
     use crate::plan::Unplanned;
 
-    fn on_base(endings: [Ending; 2]) -> OnBase {
-        let search = |ending| TimedSearch { method: SearchMethod::Lobs, ending, time: Duration::ZERO };
-        OnBase { knowledge: Duration::ZERO, searches: endings.map(search).to_vec() }
-    }
-
     #[test]
     fn a_shorter_sequence_or_one_in_spite_of_a_deadlock_refutes_our_proof() {
-        let check = |other, ours, refuted| assert_eq!(refutation(&on_base([other, ours])).is_some(), refuted);
+        let check = |other, ours, refuted| assert_eq!(not_refuted(other, ours).is_err(), refuted);
         check(Ending::Sequence(2), Ending::Sequence(3), true);
         check(Ending::Sequence(2), Ending::Deadlock, true);
         check(Ending::Sequence(3), Ending::Sequence(3), false);

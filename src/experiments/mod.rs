@@ -3,6 +3,7 @@
 mod arrange;
 mod episode;
 mod error;
+mod figures;
 mod generate;
 mod interval;
 mod papers_cases;
@@ -17,11 +18,12 @@ mod workers;
 use core::time::Duration;
 
 pub use error::{Cause, ExperimentError};
+pub use figures::{MethodFigures, ModelFigures, PlanFigures};
 pub use generate::{Arrangement, GenerateError, Recipe, generate};
 pub use interval::Interval;
 pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, TABLE1_EPISODES, TABLE2_EPISODES};
 pub use spread::Spread;
-pub use table1::{MethodFigures, ModelFigures, PlanFigures, Table1Column, table1};
+pub use table1::{Table1Column, table1};
 pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
 pub use timed_search::Ending;
 pub use varied::varied;

@@ -88,7 +88,7 @@ struct Placed {
     time: Duration,
 }
 
-/// Run Table II. `done` hears how many of how many episodes are done.
+/// Run Table II. `done` hears how much of how much is done.
 ///
 /// # Errors
 /// [`ExperimentError`] if an episode fails: a bug of ours, or a table too full for the objects.

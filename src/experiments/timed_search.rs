@@ -31,7 +31,6 @@ pub enum Ending {
 /// One search with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TimedSearch {
-    pub(super) method: SearchMethod,
     pub(super) ending: Ending,
     /// The time limit for one that did not end by itself: with more memory it would have gone on.
     pub(super) time: Duration,
@@ -65,5 +64,5 @@ pub(super) fn timed_search(
         Ending::Sequence(_) | Ending::Deadlock => watch.elapsed(),
         Ending::Late | Ending::TooLarge => patience.limit,
     };
-    TimedSearch { method, ending, time }
+    TimedSearch { ending, time }
 }

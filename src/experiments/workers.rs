@@ -104,6 +104,7 @@ mod tests {
             }
             let watch = Patience { limit: Duration::MAX, failed }.watch();
             while !watch.cancelled() {
+                assert!(watch.elapsed() < Duration::from_secs(60), "not told to stop");
                 thread::yield_now();
             }
             Ok(())

@@ -10,7 +10,7 @@ fn ran(arguments: &[&str]) -> String {
     let output = run(&[&["experiment"], arguments].concat());
     let errors = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{errors}");
-    assert!(errors.lines().all(|line| line.ends_with(" episodes")), "{errors}");
+    assert!(errors.lines().all(|line| line.ends_with(" done")), "{errors}");
     String::from_utf8(output.stdout).unwrap()
 }
 

@@ -1,0 +1,180 @@
+//! Episodes summed up.
+
+use super::episode::{Episode, OnBase};
+use super::interval::Interval;
+use super::spread::Spread;
+use super::timed_search::{Ending, TimedSearch};
+use crate::plan::{GraspModel, SearchMethod, Verdict};
+
+/// All methods on the bases of one grasp model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelFigures {
+    /// Which yaws an obstacle blocks.
+    pub grasp_model: GraspModel,
+    /// How long a complete base took, s.
+    pub knowledge_s: Option<Spread>,
+    /// The baseline, LOBS, ours.
+    pub methods: [MethodFigures; 3],
+}
+
+/// One method on the bases of one grasp model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MethodFigures {
+    /// The search.
+    pub method: SearchMethod,
+    /// How many scenes it was given.
+    pub episodes: usize,
+    /// Episodes that it calls a deadlock.
+    pub deadlocks: usize,
+    /// Episodes that ended with a sequence or a deadlock.
+    pub successes: usize,
+    /// Of the successes, sequences without any relocation: the target is graspable at once.
+    pub graspable: usize,
+    /// Episodes that the time limit ended.
+    pub late: usize,
+    /// Episodes that the limit of memory ended.
+    pub too_large: usize,
+    /// Deadlocks that are none, by our proof on the same base.
+    pub false_deadlocks: usize,
+    /// Sequences longer than the least one, by our proof on the same base.
+    pub not_optimal: usize,
+    /// Search time, s, over all episodes; those that did not end by themselves count as the time limit.
+    pub search_s: Option<Spread>,
+    /// Mean number of relocations over the episodes with a sequence, the target not counted.
+    pub relocations_mean: Option<f64>,
+}
+
+/// What became of some scenes in our planner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanFigures {
+    /// How many scenes.
+    pub episodes: usize,
+    /// The target is graspable at once.
+    pub graspable: usize,
+    /// A plan, checked.
+    pub relocate: usize,
+    /// Of those, plans that are proven to be as short as any.
+    pub optimal: usize,
+    /// A proven deadlock.
+    pub deadlock: usize,
+    /// No place was found for what has to move.
+    pub no_space: usize,
+    /// The time limit came first.
+    pub timed_out: usize,
+    /// Mean number of relocations of the plans.
+    pub relocations_mean: Option<f64>,
+    /// Time of a whole answer, s: knowledge, search, places and check.
+    pub plan_s: Option<Spread>,
+}
+
+impl ModelFigures {
+    pub(super) fn new<'e>(grasp_model: GraspModel, episodes: impl Iterator<Item = &'e OnBase> + Clone) -> Self {
+        let methods = [SearchMethod::ForwardAstar, SearchMethod::Lobs, SearchMethod::Landmarks];
+        Self {
+            grasp_model,
+            knowledge_s: Spread::of_times(episodes.clone().map(|on_base| on_base.knowledge)),
+            methods: methods.map(|method| MethodFigures::new(method, episodes.clone())),
+        }
+    }
+
+    /// The figures of one method.
+    pub fn method(&self, method: SearchMethod) -> &MethodFigures {
+        self.methods.iter().find(|figures| figures.method == method).expect("all methods are run")
+    }
+}
+
+impl MethodFigures {
+    fn new<'e>(method: SearchMethod, episodes: impl Iterator<Item = &'e OnBase>) -> Self {
+        let searches: Vec<(&TimedSearch, Ending)> =
+            episodes.filter_map(|on_base| Some((on_base.search(method)?, on_base.ours.ending))).collect();
+        let count = |of: &dyn Fn(Ending, Ending) -> bool| {
+            searches.iter().filter(|(search, ours)| of(search.ending, *ours)).count()
+        };
+        let lengths = searches.iter().filter_map(|(search, _)| match search.ending {
+            Ending::Sequence(length) => Some(length as f64),
+            _ => None,
+        });
+        let deadlocks = count(&|ending, _| ending == Ending::Deadlock);
+        Self {
+            method,
+            episodes: searches.len(),
+            deadlocks,
+            successes: deadlocks + count(&|ending, _| matches!(ending, Ending::Sequence(_))),
+            graspable: count(&|ending, _| ending == Ending::Sequence(0)),
+            late: count(&|ending, _| ending == Ending::Late),
+            too_large: count(&|ending, _| ending == Ending::TooLarge),
+            false_deadlocks: count(&|ending, ours| ending == Ending::Deadlock && matches!(ours, Ending::Sequence(_))),
+            not_optimal: count(&|ending, ours| match (ending, ours) {
+                (Ending::Sequence(found), Ending::Sequence(least)) => found > least,
+                _ => false,
+            }),
+            search_s: Spread::of_times(searches.iter().map(|(search, _)| search.time)),
+            relocations_mean: Spread::of(lengths).map(|lengths| lengths.mean),
+        }
+    }
+
+    /// How sure the deadlock rate is (95 %).
+    pub fn deadlock_interval(&self) -> Interval {
+        Interval::wilson(self.deadlocks, self.episodes)
+    }
+}
+
+impl PlanFigures {
+    pub(super) fn new<'e>(episodes: impl Iterator<Item = &'e Episode>) -> Self {
+        let episodes: Vec<&Episode> = episodes.collect();
+        let count = |of: fn(&Verdict) -> bool| episodes.iter().filter(|episode| of(&episode.answer.verdict)).count();
+        let costs = episodes.iter().filter_map(|episode| match &episode.answer.verdict {
+            Verdict::Relocate(plan) => Some(plan.cost() as f64),
+            _ => None,
+        });
+        Self {
+            episodes: episodes.len(),
+            graspable: count(|verdict| matches!(verdict, Verdict::Graspable(_))),
+            relocate: count(|verdict| matches!(verdict, Verdict::Relocate(_))),
+            optimal: count(|verdict| matches!(verdict, Verdict::Relocate(plan) if plan.optimal())),
+            deadlock: count(|verdict| matches!(verdict, Verdict::Deadlock(_))),
+            no_space: count(|verdict| matches!(verdict, Verdict::NoSpace(_))),
+            timed_out: count(|verdict| matches!(verdict, Verdict::TimedOut(_))),
+            relocations_mean: Spread::of(costs).map(|costs| costs.mean),
+            plan_s: Spread::of_times(episodes.iter().map(|episode| episode.planning)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn wrong_answers_are_counted_against_our_proof_and_only_there() {
+        use Ending::{Deadlock, Late, Sequence, TooLarge};
+        let endings = [
+            [Sequence(3), Sequence(3)],
+            [Sequence(4), Sequence(3)],
+            [Sequence(0), Sequence(0)],
+            [Sequence(9), Late],
+            [Deadlock, Sequence(1)],
+            [Deadlock, Deadlock],
+            [Deadlock, Late],
+            [Late, Deadlock],
+            [TooLarge, Sequence(1)],
+        ];
+        let search = |ending| TimedSearch { ending, time: Duration::from_secs(1) };
+        let episodes = endings.map(|[lobs, ours]| OnBase {
+            knowledge: Duration::ZERO,
+            baseline: None,
+            lobs: search(lobs),
+            ours: search(ours),
+        });
+        let figures = MethodFigures::new(SearchMethod::Lobs, episodes.iter());
+        let counts = (figures.episodes, figures.deadlocks, figures.successes, figures.late, figures.too_large);
+        assert_eq!(counts, (9, 3, 7, 1, 1));
+        assert_eq!((figures.false_deadlocks, figures.not_optimal, figures.graspable), (1, 1, 1));
+        assert_eq!(figures.relocations_mean, Some(4.0));
+        assert_eq!(figures.search_s, Some(Spread { mean: 1.0, median: 1.0 }));
+        let none = MethodFigures::new(SearchMethod::ForwardAstar, episodes.iter());
+        assert_eq!((none.episodes, none.search_s, none.relocations_mean), (0, None, None));
+    }
+}
