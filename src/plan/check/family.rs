@@ -5,18 +5,25 @@ use crate::budget::Interrupted;
 use super::meter::Meter;
 
 /// A sorted set of small numbers.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone)]
 pub(super) struct Set {
     members: Vec<usize>,
     /// One bit for each residue modulo 64: most pairs that are not subsets show it here.
     signature: u64,
+    /// What it is worth, see [`super::shares`]; 0 to begin with.
+    pub(super) share: f64,
 }
 
 impl Set {
     /// `members` in increasing order.
     pub(super) fn new(members: Vec<usize>) -> Self {
         let signature = members.iter().fold(0, |bits, member| bits | 1 << (member % 64));
-        Self { members, signature }
+        Self { members, signature, share: 0.0 }
+    }
+
+    /// Other members, the same share.
+    fn with(&self, members: Vec<usize>) -> Self {
+        Self { share: self.share, ..Self::new(members) }
     }
 
     pub(super) fn members(&self) -> &[usize] {
@@ -37,7 +44,7 @@ impl Set {
 }
 
 /// Sets over the elements 0 to `width` − 1; none is empty.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub(super) struct Family {
     pub(super) sets: Vec<Set>,
     pub(super) width: usize,
@@ -67,39 +74,6 @@ impl Family {
         count
     }
 
-    /// A bound by shares: every set gets a share such that the sets of no element get more than 1 together; then as many
-    /// elements are needed as the shares add up to (weak duality). A set's share is 1 over the count of sets that its most
-    /// frequent member hits, and then whatever its members have left.
-    pub(super) fn shares(&self) -> usize {
-        let mut count = vec![0.0_f64; self.width];
-        for member in self.sets.iter().flat_map(|set| &set.members) {
-            count[*member] += 1.0;
-        }
-        let most = |set: &Set| set.members.iter().fold(1.0, |most, member| count[*member].max(most));
-        let mut left = vec![1.0_f64; self.width];
-        let mut total = 0.0;
-        let mut order: Vec<(f64, &Set)> = self.sets.iter().map(|set| (1.0 / most(set), set)).collect();
-        for (share, set) in &order {
-            total += share;
-            set.members.iter().for_each(|member| left[*member] -= share);
-        }
-        order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, set) in order {
-            let share = set.members.iter().fold(1.0, |least, member| left[*member].min(least)).max(0.0);
-            total += share;
-            set.members.iter().for_each(|member| left[*member] -= share);
-        }
-        // Rounding adds up to far less than this, and a whole number must not become the next one.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the count of sets")]
-        let whole = (total - 1e-6).ceil().max(0.0) as usize;
-        whole
-    }
-
-    /// The better of the two bounds.
-    pub(super) fn bound(&self) -> usize {
-        self.packing().max(self.shares())
-    }
-
     /// For each element the positions of the sets that hold it.
     pub(super) fn columns(&self) -> Vec<Vec<usize>> {
         let mut columns = vec![Vec::new(); self.width];
@@ -116,7 +90,7 @@ impl Family {
         1 + (self.sets.iter().map(|set| set.members.len()).sum::<usize>() + self.width) / 200
     }
 
-    /// Drop supersets, take single members, drop dominated elements, until nothing changes. The least number of elements
+    /// Drop supersets, take single members, drop dominated elements, fold, until nothing changes. The least number of elements
     /// that hit the family is `forced` plus that of the rest.
     pub(super) fn reduce(mut self, meter: &mut Meter<'_>) -> Result<Reduced, Interrupted> {
         let mut forced = 0;
@@ -126,7 +100,12 @@ impl Family {
             // What holds a single member's set is a superset and gone already, so nothing else is hit by it.
             self.sets.retain(|set| set.members.len() > 1);
             forced += before - self.sets.len();
-            if !self.drop_dominated(meter)? {
+            if self.drop_dominated(meter)? {
+                continue;
+            }
+            let folds = self.fold(meter)?;
+            forced += folds;
+            if folds == 0 {
                 return Ok(Reduced { forced, rest: self });
             }
         }
@@ -161,7 +140,7 @@ impl Family {
             return Ok(false);
         }
         for set in &mut self.sets {
-            *set = Set::new(set.members.iter().copied().filter(|member| !dropped[*member]).collect());
+            *set = set.with(set.members.iter().copied().filter(|member| !dropped[*member]).collect());
         }
         Ok(true)
     }
@@ -202,17 +181,55 @@ impl Family {
         let renumbered = found.iter().map(|&at| {
             let mut members: Vec<usize> = self.sets[at].members.iter().filter_map(|member| numbers[*member]).collect();
             members.sort_unstable();
-            Set::new(members)
+            self.sets[at].with(members)
         });
         Self { sets: renumbered.collect(), width }
     }
 
-    /// What is left to hit once `taken` is taken and `refused` may not be. `None` if nothing can hit it.
-    pub(super) fn after(&self, taken: usize, refused: &[usize]) -> Option<Self> {
-        let left = self.sets.iter().filter(|set| !set.contains(taken)).map(|set| {
+    /// What is left to hit once all of `taken` is taken and none of `refused` may be. `None` if nothing can hit it.
+    pub(super) fn after(&self, taken: &[usize], refused: &[usize]) -> Option<Self> {
+        let open = self.sets.iter().filter(|set| !taken.iter().any(|member| set.contains(*member)));
+        let left = open.map(|set| {
             let members: Vec<usize> = set.members.iter().copied().filter(|member| !refused.contains(member)).collect();
-            (!members.is_empty()).then(|| Set::new(members))
+            (!members.is_empty()).then(|| set.with(members))
         });
         Some(Self { sets: left.collect::<Option<_>>()?, width: self.width })
+    }
+
+    /// Where an element hits two pairs and nothing else, some least choice has it alone of the three, or both of its
+    /// partners: one element more than if the partners were one and the pairs were not there. The count of such pieces.
+    fn fold(&mut self, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
+        meter.spend(self.units())?;
+        let columns = self.columns();
+        let mut touched = vec![false; self.width];
+        let mut gone = vec![false; self.sets.len()];
+        let mut becomes: Vec<usize> = (0..self.width).collect();
+        let mut folds = 0;
+        for (centre, column) in columns.iter().enumerate() {
+            let [first, second] = column[..] else { continue };
+            let partner = |at: usize| match self.sets[at].members[..] {
+                [a, b] => Some(if a == centre { b } else { a }),
+                _ => None,
+            };
+            let (Some(one), Some(two)) = (partner(first), partner(second)) else { continue };
+            if [centre, one, two].iter().any(|element| touched[*element]) {
+                continue;
+            }
+            [centre, one, two].iter().for_each(|element| touched[*element] = true);
+            (gone[first], gone[second]) = (true, true);
+            becomes[two] = one;
+            folds += 1;
+        }
+        if folds > 0 {
+            let mut gone = gone.into_iter();
+            self.sets.retain(|_| gone.next() != Some(true));
+            for set in &mut self.sets {
+                let mut members: Vec<usize> = set.members.iter().map(|member| becomes[*member]).collect();
+                members.sort_unstable();
+                members.dedup();
+                *set = set.with(members);
+            }
+        }
+        Ok(folds)
     }
 }

@@ -4,6 +4,7 @@ use crate::budget::Interrupted;
 
 use super::family::{Family, Set};
 use super::meter::Meter;
+use super::shares::{divide, improve};
 
 /// How many elements hit every set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,24 +16,30 @@ pub(super) struct Hits {
 }
 
 /// Choices that may be open at once. Each is a frame on the stack; a search so deep would not end in any time.
-const MAX_DEPTH: usize = 200;
+const MAX_DEPTH: usize = 400;
 /// Members in all sets of one component that are searched. A search over more would not end either, and each open choice
 /// holds a copy.
 const MAX_MEMBERS: usize = 20_000;
+/// Rounds in which shares are improved: first, and after each choice, where they come from before it.
+const FIRST_ROUNDS: usize = 100;
+const ROUNDS: usize = 12;
 
 /// The least number of elements, below `width`, that hit every one of the non-empty `sets` (each in increasing order).
 /// Where the budget ends first, components already searched count in full and the others by their disjoint sets or
 /// shares.
 pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<'_>) -> Hits {
-    let family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
-    let bound = family.bound();
+    let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
+    divide(&mut family);
+    let bound = family.packing().max(improve(&mut family, usize::MAX, 0).at_least());
     let Ok(reduced) = family.reduce(meter) else { return Hits { at_least: bound, exact: false } };
     let mut hits = Hits { at_least: reduced.forced, exact: true };
-    for component in reduced.rest.components() {
-        match search(&component, meter) {
+    for mut component in reduced.rest.components() {
+        divide(&mut component);
+        let mut floor = component.packing();
+        match search(component, &mut floor, meter) {
             Ok(least) => hits.at_least += least,
             Err(Interrupted) => {
-                hits.at_least += component.bound();
+                hits.at_least += floor;
                 hits.exact = false;
             }
         }
@@ -41,29 +48,43 @@ pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<
     Hits { at_least: hits.at_least.max(bound), ..hits }
 }
 
-/// The least number of elements for one component.
-fn search(component: &Family, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    meter.spend(component.units())?;
-    if component.sets.iter().map(|set| set.members().len()).sum::<usize>() > MAX_MEMBERS {
+/// The least number of elements for one component; `floor` rises to what is proven if that can't be found.
+fn search(mut component: Family, floor: &mut usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
+    let size = component.sets.iter().map(|set| set.members().len()).sum::<usize>();
+    let known = greedy(component.clone(), meter)?;
+    meter.spend(component.units() * FIRST_ROUNDS)?;
+    *floor = (*floor).max(improve(&mut component, known, FIRST_ROUNDS).at_least());
+    if *floor >= known {
+        return Ok(known);
+    }
+    if size > MAX_MEMBERS {
         return Err(Interrupted);
     }
-    let known = greedy(component, meter)?;
     branch(component, known, MAX_DEPTH, meter)
 }
 
-/// Some number of elements that suffices: always the one that hits most of what is left.
-fn greedy(family: &Family, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    let columns = family.columns();
-    let mut hit = vec![false; family.sets.len()];
+/// Some number of elements that suffices: what can be decided is, then the one that hits most is taken, and again.
+fn greedy(mut family: Family, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
     let mut count = 0;
-    while hit.contains(&false) {
-        meter.spend(family.units())?;
-        let misses = |element: &usize| columns[*element].iter().filter(|at| !hit[**at]).count();
-        let Some(best) = (0..family.width).rev().max_by_key(misses) else { break };
-        columns[best].iter().for_each(|at| hit[*at] = true);
+    loop {
+        let reduced = family.reduce(meter)?;
+        count += reduced.forced;
+        let Some(best) = most_frequent(&reduced.rest) else { return Ok(count) };
+        let Some(left) = reduced.rest.after(&[best], &[]) else { return Ok(count) };
         count += 1;
+        family = left;
     }
-    Ok(count)
+}
+
+/// The element that hits most, pairs first of all; `None` if there is nothing to hit.
+fn most_frequent(family: &Family) -> Option<usize> {
+    let mut weight = vec![0_usize; family.width];
+    for set in &family.sets {
+        let each = 8 >> (set.members().len().clamp(2, 5) - 2);
+        set.members().iter().for_each(|member| weight[*member] += each);
+    }
+    let best = (0..family.width).rev().max_by_key(|element| weight[*element])?;
+    (weight[best] > 0).then_some(best)
 }
 
 /// The least number of elements that hit the family, or `limit` if it is no less.
@@ -72,9 +93,9 @@ fn least(family: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> R
     let mut total = reduced.forced;
     meter.spend(reduced.rest.units())?;
     let components = reduced.rest.components();
-    let bounds: Vec<usize> = components.iter().map(Family::bound).collect();
+    let bounds: Vec<usize> = components.iter().map(Family::packing).collect();
     let mut rest: usize = bounds.iter().sum();
-    for (component, bound) in components.iter().zip(bounds) {
+    for (component, bound) in components.into_iter().zip(bounds) {
         if total + rest >= limit {
             return Ok(limit);
         }
@@ -84,23 +105,29 @@ fn least(family: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> R
     Ok(total.min(limit))
 }
 
-/// Like [`least`], for a reduced component: some member of a smallest set must be taken. Each member is tried in turn, and
-/// once tried is refused to the later ones.
-fn branch(component: &Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    meter.spend(component.units())?;
-    let (bound, mut best) = (component.bound(), limit);
+/// Like [`least`], for a reduced component. What the shares decide is decided; else some element is taken, or refused.
+fn branch(mut component: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
+    meter.spend(component.units() * ROUNDS)?;
     let Some(depth) = depth.checked_sub(1) else { return Err(Interrupted) };
-    let columns = component.columns();
-    let pivot = component.sets.iter().min_by_key(|set| set.members().len()).map_or(&[][..], Set::members);
-    let mut members = pivot.to_vec();
-    members.sort_by_key(|member| core::cmp::Reverse(columns[*member].len()));
-    for (tried, &member) in members.iter().enumerate() {
-        if bound >= best {
-            break;
-        }
-        if let Some(left) = component.after(member, &members[..tried]) {
-            best = best.min(1 + least(left, best - 1, depth, meter)?);
-        }
+    let worth = improve(&mut component, limit, ROUNDS);
+    if worth.at_least() >= limit {
+        return Ok(limit);
+    }
+    let (refused, others): (Vec<usize>, Vec<usize>) =
+        (0..component.width).partition(|element| worth.with(*element) >= limit);
+    let taken: Vec<usize> = others.into_iter().filter(|element| worth.without(*element) >= limit).collect();
+    if !refused.is_empty() || !taken.is_empty() {
+        let (left, count) = (component.after(&taken, &refused), taken.len());
+        let (Some(left), true) = (left, count < limit) else { return Ok(limit) };
+        return Ok(count + least(left, limit - count, depth, meter)?);
+    }
+    let Some(element) = most_frequent(&component) else { return Ok(0) };
+    let mut best = limit;
+    if let Some(left) = component.after(&[element], &[]) {
+        best = best.min(1 + least(left, best - 1, depth, meter)?);
+    }
+    if let Some(left) = component.after(&[], &[element]).filter(|_| worth.at_least() < best) {
+        best = best.min(least(left, best, depth, meter)?);
     }
     Ok(best)
 }
@@ -135,8 +162,9 @@ mod tests {
             let sets: Vec<Vec<usize>> = sets.into_iter().map(|set| set.into_iter().collect()).collect();
             let exact = enumerate(&sets, 12);
             prop_assert_eq!(solve(&sets, 12), Hits { at_least: exact, exact: true });
-            let family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
-            prop_assert!(family.packing() <= exact && family.shares() <= exact);
+            let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
+            divide(&mut family);
+            prop_assert!(family.packing() <= exact && improve(&mut family, exact + 1, 40).at_least() <= exact);
         }
 
         /// Two tangles and a few links: a choice among the links leaves parts that are searched apart.
@@ -170,8 +198,9 @@ mod tests {
     fn shares_see_what_disjoint_sets_do_not() {
         // All pairs of five: no two disjoint pairs more than 2, but each element hits only 4 of 10.
         let pairs = (0..5).flat_map(|a| (a + 1..5).map(move |b| Set::new(vec![a, b])));
-        let family = Family { sets: pairs.collect(), width: 5 };
-        assert_eq!((family.packing(), family.shares()), (2, 3));
+        let mut family = Family { sets: pairs.collect(), width: 5 };
+        divide(&mut family);
+        assert_eq!((family.packing(), improve(&mut family, 4, 0).at_least()), (2, 3));
     }
 
     #[test]

@@ -22,6 +22,7 @@ mod replay;
 mod rings;
 #[cfg(test)]
 mod scenes;
+mod shares;
 mod yaws;
 
 pub use fault::{Fault, FaultCode, MAX_FAULTS, Report};
