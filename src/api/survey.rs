@@ -20,7 +20,7 @@ use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
 /// Every movable object as the target
 ///
 /// Logic only: how many relocations each object would need, without places for them. The scene's own `target` must be
-/// there, but has no part in the answer. `time_limit_ms` is for the whole call; what is undecided then is `timed_out`.
+/// there, but has no part in the answer, nor has any setting but the time limit. `time_limit_ms` is for the whole call; what is undecided then is `timed_out`.
 #[utoipa::path(
     post,
     path = "/v1/survey",

@@ -1,11 +1,14 @@
 //! The command line: one file a command.
 
+mod experiment;
 mod flags;
 mod generate;
 mod healthcheck;
 mod input;
 mod output;
 mod plan;
+mod progress;
+mod results;
 mod serve;
 mod stopwatch;
 mod survey;
@@ -45,6 +48,8 @@ enum Command {
     Survey(survey::Survey),
     /// Make up a scene and print it as a request
     Generate(generate::Generate),
+    /// Run one of the paper's tables on made-up scenes
+    Experiment(experiment::Experiment),
     /// Print the interface document
     Openapi,
     /// Ask a running service whether it is ready
@@ -90,6 +95,7 @@ impl Cli {
             Command::Verify(command) => command.run(),
             Command::Survey(command) => command.run(),
             Command::Generate(command) => command.run(),
+            Command::Experiment(command) => command.run(),
             Command::Openapi => output::print(&api::openapi_json()),
             Command::Healthcheck(command) => command.run(),
         }

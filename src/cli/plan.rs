@@ -1,5 +1,6 @@
 //! `singulate plan`.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,6 +11,7 @@ use super::{Failure, configure, input, output, text};
 use crate::budget::Budget;
 use crate::plan;
 use crate::plan::PlanError;
+use crate::plan::check::Report;
 use crate::render;
 use crate::wire::{AnswerBody, Problem, VerificationBody};
 
@@ -55,6 +57,11 @@ pub(super) fn failed(scene: &Path, error: &PlanError) -> Failure {
     let PlanError::Refused(report) = error else {
         return input::refused(scene, &Problem::too_dense(error.to_string()));
     };
+    withheld(error, report)
+}
+
+/// A bug of ours: an answer that failed its check.
+pub(super) fn withheld(error: &impl Display, report: &Report) -> Failure {
     let mut lines = vec![error.to_string()];
     lines.extend(VerificationBody::new(report).faults.iter().map(text::fault));
     Failure::Broken(lines.join("\n"))

@@ -1,8 +1,49 @@
-//! Scenes made up from a seed.
+//! Scenes made up from a seed, and the paper's tables run on them.
 
 mod arrange;
+mod episode;
+mod error;
 mod generate;
+mod interval;
+mod papers_cases;
+mod papers_scene;
+mod spread;
+mod table1;
+mod table2;
+mod timed_search;
 mod varied;
+mod workers;
 
+use core::time::Duration;
+
+pub use error::{Cause, ExperimentError};
 pub use generate::{Arrangement, GenerateError, Recipe, generate};
+pub use interval::Interval;
+pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, TABLE1_EPISODES, TABLE2_EPISODES};
+pub use spread::Spread;
+pub use table1::{MethodFigures, ModelFigures, PlanFigures, Table1Column, table1};
+pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
+pub use timed_search::Ending;
 pub use varied::varied;
+
+/// How to run a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExperimentSettings {
+    /// Episodes in each column, one or more.
+    pub episodes: usize,
+    /// Those of them, the first ones, that Table I gives the baseline too, which may take the whole time limit for each.
+    pub base_episodes: usize,
+    /// The same seed gives the same scenes, on any machine.
+    pub seed: u64,
+    /// For each search of each episode, and for each plan.
+    pub time_limit: Duration,
+    /// Threads, one or more.
+    pub jobs: usize,
+}
+
+impl ExperimentSettings {
+    /// The time limit in whole milliseconds.
+    pub fn time_limit_ms(&self) -> u64 {
+        u64::try_from(self.time_limit.as_millis()).unwrap_or(u64::MAX)
+    }
+}

@@ -15,6 +15,8 @@ mod scene;
 mod settings;
 mod stated;
 mod survey;
+mod table1;
+mod table2;
 mod verification;
 
 pub use answer::{
@@ -31,6 +33,8 @@ pub use scene::{
 };
 pub use stated::{PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, StatedStatistics, VerifyBody};
 pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
+pub use table1::{MethodBody, ModelBody, PaperBody, PaperMethodBody, PlansBody, Table1Body, Table1ColumnBody};
+pub use table2::{PaperRepositionBody, PlacementBody, Table2Body, Table2ColumnBody};
 pub use verification::{FaultBody, VerificationBody};
 
 #[cfg(test)]

@@ -6,6 +6,8 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use crate::experiments::Repositioning;
+use crate::plan::{GraspModel, SearchMethod};
 use crate::scene::{Gripper, Object, Rectangle, Scene};
 
 /// A scene and how to plan for it: the body of a planning request.
@@ -242,5 +244,33 @@ impl ObjectBody {
         let disc = object.disc();
         let fixed = object.fixed().then_some(true);
         Self { id: object.id().to_owned(), x: disc.centre.x, y: disc.centre.y, radius: disc.radius, fixed }
+    }
+}
+
+impl From<GraspModel> for GraspModelWord {
+    fn from(model: GraspModel) -> Self {
+        match model {
+            GraspModel::SweptFinger => Self::SweptFinger,
+            GraspModel::Sector => Self::Sector,
+        }
+    }
+}
+
+impl From<SearchMethod> for SearchWord {
+    fn from(method: SearchMethod) -> Self {
+        match method {
+            SearchMethod::Landmarks => Self::Landmarks,
+            SearchMethod::Lobs => Self::Lobs,
+            SearchMethod::ForwardAstar => Self::ForwardAstar,
+        }
+    }
+}
+
+impl From<Repositioning> for PlacementWord {
+    fn from(repositioning: Repositioning) -> Self {
+        match repositioning {
+            Repositioning::Raster => Self::Raster,
+            Repositioning::Exact => Self::Exact,
+        }
     }
 }

@@ -50,6 +50,18 @@ fn the_text_is_what_plan_says_but_for_the_times() {
 }
 
 #[test]
+fn every_command_is_listed() {
+    let help = answered(run(&["--help"]));
+    let (_, commands) = help.split_once("Commands:\n").unwrap();
+    let names = commands.lines().map_while(|line| line.split_whitespace().next());
+    let names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    assert!(names.len() > 7, "{names:?}");
+    for name in names {
+        assert!(README.contains(&format!("| `singulate {name}")), "{name}");
+    }
+}
+
+#[test]
 fn every_setting_is_listed_with_its_default() {
     for setting in &SETTINGS {
         let default = match setting.name {

@@ -1,0 +1,111 @@
+//! `singulate experiment`.
+
+use core::time::Duration;
+use std::thread::available_parallelism;
+
+use clap::builder::RangedU64ValueParser;
+use clap::{Args, Subcommand};
+
+use super::plan::withheld;
+use super::progress::Progress;
+use super::verify::Format;
+use super::{Failure, output, results};
+use crate::experiments::{Cause, ExperimentError, ExperimentSettings, table1, table2};
+use crate::plan::PlanError;
+use crate::wire::{Table1Body, Table2Body};
+
+/// The most episodes in a column: the seeds of the next one begin after so many.
+const MAX_EPISODES: u64 = 1_000_000;
+
+/// The arguments of `experiment`.
+#[derive(Debug, Args)]
+pub(super) struct Experiment {
+    #[command(subcommand)]
+    table: Table,
+}
+
+#[derive(Debug, Subcommand)]
+enum Table {
+    /// Table I: deadlocks, successes, search time and relocations of the baseline, LOBS and ours
+    #[command(after_help = results::NOT_THE_SAME)]
+    Table1 {
+        #[command(flatten)]
+        common: Common,
+        /// Episodes that the baseline is given, which may take the whole time limit for each [default: episodes, at most 20]
+        #[arg(long, value_name = "N")]
+        base_episodes: Option<usize>,
+    },
+    /// Table II: places for the sequences that LOBS finds, by the paper's method and ours
+    #[command(after_help = results::NOT_THE_SAME)]
+    Table2 {
+        #[command(flatten)]
+        common: Common,
+    },
+}
+
+#[derive(Debug, Args)]
+struct Common {
+    /// Episodes in each column
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MAX_EPISODES))]
+    episodes: usize,
+    /// The same seed gives the same scenes, on any machine
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// For each search and each plan, ms
+    #[arg(long, value_name = "MS", default_value_t = 60_000, value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit_ms: u64,
+    /// Episodes at a time; each may take up to a gigabyte of memory [default: one per core]
+    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
+    jobs: Option<usize>,
+    /// json: for programs; text: for people
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Experiment {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let mut progress = Progress::start();
+        let told = |done: usize, total: usize| progress.tell(done, total);
+        match self.table {
+            Table::Table1 { common, base_episodes } => {
+                let settings = common.settings(base_episodes);
+                let columns = table1(&settings, told);
+                progress.end();
+                let columns = columns.map_err(|error| failed(&error))?;
+                match common.format {
+                    Format::Json => output::print_json(&Table1Body::new(&settings, &columns)),
+                    Format::Text => output::print(&results::table1(&settings, &columns)),
+                }
+            }
+            Table::Table2 { common } => {
+                let settings = common.settings(Some(0));
+                let columns = table2(&settings, told);
+                progress.end();
+                let columns = columns.map_err(|error| failed(&error))?;
+                match common.format {
+                    Format::Json => output::print_json(&Table2Body::new(&settings, &columns)),
+                    Format::Text => output::print(&results::table2(&settings, &columns)),
+                }
+            }
+        }
+    }
+}
+
+impl Common {
+    fn settings(&self, base_episodes: Option<usize>) -> ExperimentSettings {
+        ExperimentSettings {
+            episodes: self.episodes,
+            base_episodes: base_episodes.unwrap_or(20).min(self.episodes),
+            seed: self.seed,
+            time_limit: Duration::from_millis(self.time_limit_ms),
+            jobs: self.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)),
+        }
+    }
+}
+
+fn failed(error: &ExperimentError) -> Failure {
+    match &error.cause {
+        Cause::Plan(PlanError::Refused(report)) => withheld(error, report),
+        _ => Failure::Broken(error.to_string()),
+    }
+}

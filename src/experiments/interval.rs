@@ -1,0 +1,62 @@
+//! How much a rate from a few episodes says.
+
+/// The 97.5th percentile of the standard normal distribution.
+const Z: f64 = 1.959_963_984_540_054;
+
+/// An interval of rates, 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Its lower end.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// The 95 % score interval of Wilson (1927) for a rate of which `hits` in `trials` were seen. Unlike the usual ± it
+    /// says something for 0 in 20, too. Without any trial it is everything.
+    pub fn wilson(hits: usize, trials: usize) -> Self {
+        if trials == 0 {
+            return Self { low: 0.0, high: 1.0 };
+        }
+        let (count, rate) = (trials as f64, hits as f64 / trials as f64);
+        let middle = rate + Z * Z / (2.0 * count);
+        let half = Z * (rate * (1.0 - rate) / count + Z * Z / (4.0 * count * count)).sqrt();
+        let whole = 1.0 + Z * Z / count;
+        // Rounding alone could lead out of the range.
+        Self { low: ((middle - half) / whole).max(0.0), high: ((middle + half) / whole).min(1.0) }
+    }
+
+    /// True if some rate is in both.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.low <= other.high && other.low <= self.high
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(hits: usize, trials: usize, low: f64, high: f64) {
+        let interval = Interval::wilson(hits, trials);
+        assert!((interval.low - low).abs() < 5e-5 && (interval.high - high).abs() < 5e-5, "{hits} {interval:?}");
+    }
+
+    #[test]
+    fn the_interval_is_what_wilson_gives() {
+        // Newcombe (1998), Table I, method 3.
+        check(81, 263, 0.2553, 0.3662);
+        check(15, 148, 0.0624, 0.1605);
+        check(0, 20, 0.0, 0.1611);
+        check(1, 29, 0.0061, 0.1718);
+        check(29, 29, 0.8830, 1.0);
+        check(0, 0, 0.0, 1.0);
+    }
+
+    #[test]
+    fn intervals_overlap_in_a_common_rate() {
+        let interval = |low, high| Interval { low, high };
+        assert!(interval(0.1, 0.3).overlaps(&interval(0.3, 0.4)) && interval(0.3, 0.4).overlaps(&interval(0.1, 0.3)));
+        assert!(interval(0.1, 0.9).overlaps(&interval(0.3, 0.4)) && !interval(0.1, 0.2).overlaps(&interval(0.3, 0.4)));
+    }
+}

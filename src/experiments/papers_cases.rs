@@ -1,0 +1,86 @@
+//! The cases of the paper's section V, with what its Tables I and II print.
+
+use super::generate::Recipe;
+use super::interval::Interval;
+
+/// The episodes in each column of Table I.
+pub const TABLE1_EPISODES: usize = 20;
+
+/// The episodes in each column of Table II.
+pub const TABLE2_EPISODES: usize = 10;
+
+/// One column of the tables.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PapersCase {
+    /// N, the target included.
+    pub objects: usize,
+    /// Width and height of the table, m.
+    pub table: (f64, f64),
+    /// What Table I prints for the baseline.
+    pub base: Printed,
+    /// What Table I prints for LOBS, "Ours" there.
+    pub lobs: Printed,
+    /// The mean reposition time of Table II, s, for a success rate of 100 %. It has Case I only.
+    pub reposition_s: Option<f64>,
+}
+
+/// What Table I prints for one method, as it stands there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Printed {
+    /// Episodes of [`TABLE1_EPISODES`] called a deadlock: there a rate in steps of 5 %.
+    pub deadlocks: usize,
+    /// Episodes decided within a minute, likewise.
+    pub successes: usize,
+    /// Mean search time, s.
+    pub search_s: f64,
+    /// Mean length of the sequences; 0 where there is none.
+    pub relocations: f64,
+}
+
+/// Case I (three objects more or fewer on one table), then Case II (one density).
+pub const PAPERS_CASES: [PapersCase; 6] = [
+    case(16, (1.2, 0.7), printed(0, 19, 3.58, 2.00), printed(4, 20, 0.14, 2.00), Some(2.67)),
+    case(18, (1.2, 0.7), printed(0, 16, 12.88, 2.00), printed(5, 20, 0.17, 2.07), Some(2.93)),
+    case(20, (1.2, 0.7), printed(0, 14, 19.08, 2.07), printed(11, 20, 0.21, 2.44), Some(2.76)),
+    case(25, (1.4, 0.7), printed(0, 11, 6.13, 2.09), printed(7, 20, 0.26, 2.23), None),
+    case(37, (1.4, 1.04), printed(0, 7, 25.96, 2.00), printed(11, 20, 0.53, 2.33), None),
+    case(50, (1.4, 1.4), printed(0, 0, 60.00, 0.00), printed(7, 20, 0.93, 2.54), None),
+];
+
+const fn case(
+    objects: usize,
+    table: (f64, f64),
+    base: Printed,
+    lobs: Printed,
+    reposition_s: Option<f64>,
+) -> PapersCase {
+    PapersCase { objects, table, base, lobs, reposition_s }
+}
+
+const fn printed(deadlocks: usize, successes: usize, search_s: f64, relocations: f64) -> Printed {
+    Printed { deadlocks, successes, search_s, relocations }
+}
+
+impl PapersCase {
+    /// The paper's gripper and plates.
+    pub(super) fn recipe(&self) -> Recipe {
+        Recipe { objects: self.objects, table: self.table, ..Recipe::default() }
+    }
+}
+
+impl Printed {
+    /// The deadlock rate, 0 to 1.
+    pub fn deadlock_rate(&self) -> f64 {
+        self.deadlocks as f64 / TABLE1_EPISODES as f64
+    }
+
+    /// How sure the deadlock rate is (95 %).
+    pub fn deadlock_interval(&self) -> Interval {
+        Interval::wilson(self.deadlocks, TABLE1_EPISODES)
+    }
+
+    /// The success rate, 0 to 1.
+    pub fn success_rate(&self) -> f64 {
+        self.successes as f64 / TABLE1_EPISODES as f64
+    }
+}

@@ -1,0 +1,103 @@
+//! A scene of one of the paper's cases, with its target.
+
+use core::cmp::Reverse;
+use core::time::Duration;
+
+use super::error::{Cause, ExperimentError};
+use super::generate::{GenerateError, generate};
+use super::papers_cases::PapersCase;
+use super::workers::Patience;
+use crate::budget::{Budget, Clock};
+use crate::knowledge::{KnowledgeBase, complete};
+use crate::plan::GraspModel;
+use crate::scene::{ObjectIndex, Scene, SceneLimits};
+
+/// So far apart lie the seeds of two columns, whose scenes on one table would otherwise begin alike.
+const COLUMN_SEEDS: u64 = 1_000_000;
+
+/// A scene to search and plan for.
+#[derive(Debug)]
+pub(super) struct PapersScene {
+    pub(super) scene: Scene,
+    /// The complete base by the sector model.
+    pub(super) sector: KnowledgeBase,
+    /// How long that took.
+    pub(super) knowledge: Duration,
+}
+
+/// The seed of an episode: what `singulate generate` makes of it are the same discs, though with another target.
+pub(super) fn seed_of(seed: u64, column: usize, episode: usize) -> u64 {
+    seed.wrapping_add(column as u64 * COLUMN_SEEDS).wrapping_add(episode as u64)
+}
+
+/// The scene of one seed. Its target is the object with the largest G_min, the least number of obstacles at any yaw, by
+/// the paper's own sector model; the first of several.
+pub(super) fn papers_scene(
+    case: &PapersCase,
+    seed: u64,
+    patience: &Patience<'_>,
+) -> Result<PapersScene, ExperimentError> {
+    let no_scene = |error| ExperimentError { objects: case.objects, seed, cause: Cause::Scene(error) };
+    let draft = generate(&case.recipe(), seed).map_err(no_scene)?;
+    let (scene, _) =
+        Scene::new(draft, &SceneLimits::default()).map_err(|findings| no_scene(GenerateError::Scene(findings)))?;
+    let watch = patience.watch();
+    let sector = complete_base(case, seed, &scene, GraspModel::Sector, &watch)?;
+    let knowledge = watch.elapsed();
+    let scene = scene.with_target(hardest(&sector)).expect("nothing is fixed in the paper's cases");
+    Ok(PapersScene { scene, sector, knowledge })
+}
+
+/// The base of all objects, without a time limit: it is no part of what is measured against one.
+pub(super) fn complete_base(
+    case: &PapersCase,
+    seed: u64,
+    scene: &Scene,
+    model: GraspModel,
+    watch: &dyn Clock,
+) -> Result<KnowledgeBase, ExperimentError> {
+    complete(scene, model.options_of(), &Budget::new(watch, Duration::MAX)).map_err(|error| ExperimentError {
+        objects: case.objects,
+        seed,
+        cause: Cause::Knowledge(error),
+    })
+}
+
+fn hardest(base: &KnowledgeBase) -> ObjectIndex {
+    let g_min = |object: ObjectIndex| base.options(object).map(<[_]>::len).min().unwrap_or_default();
+    // Of equals the first, which a maximum would not give.
+    base.objects().min_by_key(|object| Reverse(g_min(*object))).expect("the paper's cases have objects")
+}
+
+#[cfg(test)]
+mod tests {
+    use core::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::experiments::PAPERS_CASES;
+    use crate::paper::PolarHistogram;
+
+    #[test]
+    fn the_target_is_the_first_object_with_the_largest_g_min() {
+        let patience = Patience { limit: Duration::MAX, failed: &AtomicBool::new(false) };
+        let mut obstacles = 0;
+        for (column, case) in PAPERS_CASES.iter().enumerate() {
+            let scene = papers_scene(case, seed_of(7, column, 0), &patience).unwrap().scene;
+            let g_min = |object| {
+                let sets = PolarHistogram::around(&scene, object).local_sets();
+                sets.iter().map(Vec::len).min().unwrap()
+            };
+            let largest = scene.indices().map(g_min).max().unwrap();
+            obstacles += largest;
+            assert_eq!(scene.indices().find(|object| g_min(*object) == largest), Some(scene.target()));
+            assert_eq!(scene.objects().len(), case.objects);
+        }
+        assert!(obstacles > 6, "{obstacles}");
+    }
+
+    #[test]
+    fn no_two_episodes_share_a_seed() {
+        assert_eq!((seed_of(5, 0, 3), seed_of(5, 2, 3)), (8, 2_000_008));
+        assert_eq!(seed_of(u64::MAX, 0, 2), 1);
+    }
+}

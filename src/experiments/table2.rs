@@ -1,0 +1,210 @@
+//! Table II: where the relocated objects go.
+
+use core::time::Duration;
+use std::collections::BTreeMap;
+
+use super::ExperimentSettings;
+use super::episode::planned;
+use super::error::{Cause, ExperimentError};
+use super::papers_cases::{PAPERS_CASES, PapersCase};
+use super::papers_scene::{papers_scene, seed_of};
+use super::spread::Spread;
+use super::timed_search::{Ending, timed_search};
+use super::workers::{Patience, in_parallel};
+use crate::paper::{DEFAULT_RESOLUTION, Raster};
+use crate::plan::check::FaultCode;
+use crate::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
+use crate::scene::Scene;
+
+/// The ways to find places that are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Repositioning {
+    /// The paper's, with [`DEFAULT_RESOLUTION`] to a pixel.
+    Raster,
+    /// Ours.
+    Exact,
+}
+
+const REPOSITIONINGS: [Repositioning; 2] = [Repositioning::Raster, Repositioning::Exact];
+
+impl Repositioning {
+    fn method(self, scene: &Scene) -> PlacementMethod {
+        match self {
+            Self::Raster => {
+                let raster = Raster::new(DEFAULT_RESOLUTION, scene.table());
+                PlacementMethod::Raster(raster.expect("the paper's tables are small"))
+            }
+            Self::Exact => PlacementMethod::Exact,
+        }
+    }
+}
+
+/// So many scenes are drawn for each episode that is wanted, and no more: where the time limit is so short that LOBS never
+/// comes to an end, there is no episode at all.
+const MAX_DRAWN: usize = 50;
+
+/// One column of Table II.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table2Column {
+    /// What was asked, with what the paper prints.
+    pub case: PapersCase,
+    /// How many scenes were drawn for the episodes.
+    pub drawn: usize,
+    /// Each way to find places, on the same sequences.
+    pub placements: [PlacementFigures; 2],
+}
+
+/// One way to find places for the sequences of LOBS on the sector model's base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacementFigures {
+    /// How places are found.
+    pub placement: Repositioning,
+    /// How many sequences it was given.
+    pub episodes: usize,
+    /// Episodes with a place for every object of the sequence.
+    pub successes: usize,
+    /// Of those, episodes in which none is needed: the target is graspable at once.
+    pub graspable: usize,
+    /// Episodes without.
+    pub no_space: usize,
+    /// Episodes that the time limit ended.
+    pub late: usize,
+    /// Time to find the places of one episode, s, where any is needed; late ones count as the time limit.
+    pub reposition_s: Option<Spread>,
+    /// Plans in which the checker, which judges by the swept finger, finds any fault.
+    pub faulty: usize,
+    /// Plans in which a finger meets an obstacle when it lets go: the gap that the paper itself states.
+    pub release_blocked: usize,
+    /// Plans with any other fault.
+    pub otherwise_faulty: usize,
+    /// How often each fault came up in all plans, by its code.
+    pub faults: BTreeMap<&'static str, usize>,
+}
+
+/// What one way to find places made of one sequence.
+struct Placed {
+    placement: Repositioning,
+    answer: Answer,
+    time: Duration,
+}
+
+/// Run Table II. `done` hears how many of how many episodes are done.
+///
+/// # Errors
+/// [`ExperimentError`] if an episode fails: a bug of ours, or a table too full for the objects.
+pub fn table2(
+    settings: &ExperimentSettings,
+    mut done: impl FnMut(usize, usize),
+) -> Result<Vec<Table2Column>, ExperimentError> {
+    let cases: Vec<&PapersCase> = PAPERS_CASES.iter().filter(|case| case.reposition_s.is_some()).collect();
+    let total = settings.episodes * cases.len();
+    let draw = |column: usize, failed: &_| {
+        let patience = Patience { limit: settings.time_limit, failed };
+        draw(cases[column], column, settings, &patience)
+    };
+    let drawn = in_parallel(cases.len(), settings.jobs, draw, |_| done(0, total))?;
+    let episodes: Vec<(usize, u64)> = drawn
+        .iter()
+        .enumerate()
+        .flat_map(|(column, drawn)| drawn.seeds.iter().map(move |&seed| (column, seed)))
+        .collect();
+    let place = |at: usize, failed: &_| {
+        let (column, seed) = episodes[at];
+        place(cases[column], seed, &Patience { limit: settings.time_limit, failed })
+    };
+    let mut placed = in_parallel(episodes.len(), settings.jobs, place, |count| done(count, total))?.into_iter();
+    let columns = cases.iter().zip(&drawn).map(|(case, drawn)| {
+        let placed: Vec<_> = placed.by_ref().take(drawn.seeds.len()).collect();
+        let placements = REPOSITIONINGS.map(|placement| {
+            PlacementFigures::new(placement, placed.iter().flatten().filter(|placed| placed.placement == placement))
+        });
+        Table2Column { case: **case, drawn: drawn.count, placements }
+    });
+    Ok(columns.collect())
+}
+
+/// The first scenes for which LOBS finds a sequence.
+struct Drawn {
+    seeds: Vec<u64>,
+    /// How many were looked at.
+    count: usize,
+}
+
+fn draw(
+    case: &PapersCase,
+    column: usize,
+    settings: &ExperimentSettings,
+    patience: &Patience<'_>,
+) -> Result<Drawn, ExperimentError> {
+    let mut drawn = Drawn { seeds: Vec::new(), count: 0 };
+    while drawn.seeds.len() < settings.episodes && drawn.count < MAX_DRAWN * settings.episodes {
+        let seed = seed_of(settings.seed, column, drawn.count);
+        let papers = papers_scene(case, seed, patience)?;
+        let search = timed_search(SearchMethod::Lobs, &papers.sector, papers.scene.target(), patience);
+        if matches!(search.ending, Ending::Sequence(_)) {
+            drawn.seeds.push(seed);
+        }
+        drawn.count += 1;
+    }
+    Ok(drawn)
+}
+
+/// One sequence, every way to find places.
+fn place(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Vec<Placed>, ExperimentError> {
+    let scene = papers_scene(case, seed, patience)?.scene;
+    let placed = |placement| place_by(&scene, placement, patience);
+    let placed: Result<_, _> = REPOSITIONINGS.into_iter().map(placed).collect();
+    placed.map_err(|cause| ExperimentError { objects: case.objects, seed, cause })
+}
+
+fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) -> Result<Placed, Cause> {
+    let method = placement.method(scene);
+    let settings = Settings {
+        grasp_model: GraspModel::Sector,
+        search: SearchMethod::Lobs,
+        placement: method,
+        ..Settings::default()
+    };
+    let (answer, _) = planned(scene, &settings, patience)?;
+    let time = match answer.verdict {
+        Verdict::TimedOut(_) => patience.limit,
+        _ => answer.statistics.placement,
+    };
+    Ok(Placed { placement, answer, time })
+}
+
+impl PlacementFigures {
+    fn new<'e>(placement: Repositioning, episodes: impl Iterator<Item = &'e Placed> + Clone) -> Self {
+        let count = |of: &dyn Fn(&Answer) -> bool| episodes.clone().filter(|placed| of(&placed.answer)).count();
+        let sought = episodes.clone().filter(|placed| !is_graspable(&placed.answer));
+        let mut by_code = BTreeMap::new();
+        for code in episodes.clone().flat_map(|placed| faults(&placed.answer)) {
+            *by_code.entry(code.name()).or_default() += 1;
+        }
+        Self {
+            placement,
+            episodes: episodes.clone().count(),
+            successes: count(&|answer| matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_))),
+            graspable: count(&is_graspable),
+            no_space: count(&|answer| matches!(answer.verdict, Verdict::NoSpace(_))),
+            late: count(&|answer| matches!(answer.verdict, Verdict::TimedOut(_))),
+            reposition_s: Spread::of_times(sought.map(|placed| placed.time)),
+            faulty: count(&Answer::faulty),
+            release_blocked: count(&|answer| faults(answer).any(|code| code == FaultCode::ReleaseBlocked)),
+            otherwise_faulty: count(&|answer| faults(answer).any(|code| code != FaultCode::ReleaseBlocked)),
+            faults: by_code,
+        }
+    }
+}
+
+fn is_graspable(answer: &Answer) -> bool {
+    matches!(answer.verdict, Verdict::Graspable(_))
+}
+
+/// What the checker has against an answer.
+fn faults(answer: &Answer) -> impl Iterator<Item = FaultCode> {
+    answer.warnings.iter().filter_map(|warning| match warning {
+        Warning::Faulty(fault) => Some(fault.code),
+        _ => None,
+    })
+}
