@@ -4,7 +4,7 @@ use super::chain::Chain;
 use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
 use super::pace::Pace;
 use super::problem::{Node, Problem};
-use super::reduction::reduce;
+use super::reduction::{Reduced, reduce};
 use super::{hitting, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
@@ -12,19 +12,21 @@ use crate::scene::ObjectIndex;
 
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
-    let problem = match reduce(base, target, restriction, budget) {
-        Ok(Some(problem)) => problem,
+    let mut pace = Pace::new(budget);
+    let Reduced { problem, needed } = match reduce(base, target, restriction, &mut pace) {
+        Ok(Some(reduced)) => reduced,
         Ok(None) => return Outcome::Underivable,
         Err(Interrupted) => return Outcome::Interrupted(None),
     };
-    let mut required = Vec::new();
-    for &object in &restriction.required {
+    let mut forced = needed;
+    for object in &restriction.required {
         // What the target does not depend on is in no least set.
-        let Some(node) = problem.node(object) else { return Outcome::Underivable };
-        required.push(node);
+        let Some(node) = problem.node(*object) else { return Outcome::Underivable };
+        if !forced.contains(&node) {
+            forced.push(node);
+        }
     }
-    let mut pace = Pace::new(budget);
-    let Ok(mut search) = Search::new(&problem, &required, &mut pace) else { return Outcome::Interrupted(None) };
+    let Ok(mut search) = Search::new(&problem, forced, &mut pace) else { return Outcome::Interrupted(None) };
     match search.run(&mut pace) {
         Ok(()) => Outcome::Least(search.known(&mut pace)),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut pace))),
@@ -44,20 +46,18 @@ struct Search<'p> {
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, required: &[Node], pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
+    fn new(problem: &'p Problem, forced: Vec<Node>, pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
         let mut chain = Chain::new(problem);
-        required.iter().for_each(|&node| chain.allow(node));
+        forced.iter().for_each(|&node| chain.allow(node));
         let best = incumbent::greedy(problem, pace)?;
         let best = incumbent::derivation(&mut chain, &best, pace).unwrap_or(best);
-        let (forced, bound) = (required.to_vec(), required.len());
+        let bound = forced.len();
         let mut search = Self { problem, chain, forced, landmarks: Vec::new(), best: Vec::new(), bound };
         search.best = search.with_forced(best);
         Ok(search)
     }
 
     fn run(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
-        self.need(self.problem.target(), pace)?;
-        self.bound = self.forced.len();
         if self.best.len() <= self.bound {
             return Ok(());
         }
@@ -94,23 +94,6 @@ impl<'p> Search<'p> {
         };
         self.bound = self.bound.max(reached);
         found.map_err(|_| Interrupted)
-    }
-
-    /// An object is grasped in every derivation: what all its options hold is moved in every derivation, and so on.
-    fn need(&mut self, object: Node, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
-        let mut open = vec![object];
-        while let Some(object) = open.pop() {
-            let Some((&first, others)) = self.problem.rules_of(object).split_first() else { continue };
-            pace.step(1 + others.len() / 8)?;
-            for &node in self.problem.body(first) {
-                if !self.forced.contains(&node) && others.iter().all(|&rule| self.problem.body(rule).contains(&node)) {
-                    self.chain.allow(node);
-                    self.forced.push(node);
-                    open.push(node);
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Landmarks that are seen without chaining, round what every derivation grasps.
@@ -158,11 +141,10 @@ impl<'p> Search<'p> {
         landmark.iter().for_each(|&node| self.chain.allow(node));
         if let [node] = landmark[..] {
             self.forced.push(node);
-            self.need(node, pace)
         } else {
             self.landmarks.push(landmark);
-            Ok(())
         }
+        Ok(())
     }
 
     /// A required object is in the set even where nothing in it makes that object graspable.

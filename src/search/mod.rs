@@ -6,11 +6,13 @@
 //! landmark. The landmarks are the proof of optimality.
 
 mod alternatives;
+mod bits;
 mod chain;
 mod hitting;
 mod incumbent;
 mod landmark;
 mod least;
+mod needs;
 mod outcome;
 mod pace;
 mod problem;

@@ -1,6 +1,7 @@
 //! The rules that one question is about, in dense numbers.
 
-use crate::budget::{Budget, Interrupted};
+use super::pace::Pace;
+use crate::budget::Interrupted;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
@@ -55,13 +56,13 @@ impl Problem {
         base: &KnowledgeBase,
         objects: Vec<ObjectIndex>,
         usable: impl Fn(&[ObjectIndex]) -> bool,
-        budget: &Budget<'_>,
+        pace: &mut Pace<'_>,
     ) -> Result<Self, Interrupted> {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
-            budget.check()?;
+            pace.step(1)?;
             for option in base.options(object).filter(|option| usable(option)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
@@ -69,12 +70,52 @@ impl Problem {
                 members.extend(option.iter().map(|member| (rule, node_of[member.get()])));
             }
         }
+        pace.step(heads.len() / 8)?;
+        Ok(Self::from_parts(objects, heads, &members))
+    }
+
+    /// What the target depends on through `kept` rules only: breadth first backwards from the target, numbered in
+    /// reverse, so that whatever is near the target comes late. Also the new number of each node that is left.
+    pub(super) fn restricted(
+        &self,
+        kept: impl Fn(u32) -> bool,
+        pace: &mut Pace<'_>,
+    ) -> Result<(Self, Vec<Option<Node>>), Interrupted> {
+        let mut seen = vec![false; self.objects.len()];
+        seen[self.target() as usize] = true;
+        let mut order = vec![self.target()];
+        let mut at = 0;
+        while let Some(&node) = order.get(at) {
+            at += 1;
+            pace.step(1 + self.rules_of(node).len() / 8)?;
+            for &member in self.rules_of(node).iter().filter(|&&rule| kept(rule)).flat_map(|&rule| self.body(rule)) {
+                if !core::mem::replace(&mut seen[member as usize], true) {
+                    order.push(member);
+                }
+            }
+        }
+        order.reverse();
+        let mut number = vec![None; self.objects.len()];
+        order.iter().zip(0..).for_each(|(&node, new)| number[node as usize] = Some(new));
+        let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
+        for (&node, head) in order.iter().zip(0..) {
+            pace.step(1 + self.rules_of(node).len() / 8)?;
+            for &rule in self.rules_of(node).iter().filter(|&&rule| kept(rule)) {
+                #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+                let new = heads.len() as u32;
+                heads.push(head);
+                members.extend(self.body(rule).iter().filter_map(|&member| Some((new, number[member as usize]?))));
+            }
+        }
+        let objects = order.iter().map(|&node| self.objects[node as usize]).collect();
+        Ok((Self::from_parts(objects, heads, &members), number))
+    }
+
+    fn from_parts(objects: Vec<ObjectIndex>, heads: Vec<Node>, members: &[(u32, Node)]) -> Self {
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
-        budget.check()?;
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        budget.check()?;
         let options = Lists::from_pairs(objects.len(), heads.iter().copied().zip(0..));
-        Ok(Self { objects, heads, options, bodies, condition_of })
+        Self { objects, heads, options, bodies, condition_of }
     }
 
     /// The number of nodes besides the target.

@@ -1,35 +1,60 @@
-//! Before the search: away with all that can't be part of any plan.
+//! Before the search: away with all that can't be part of any plan, or need not be.
 
 use super::chain::Chain;
+use super::needs::Needs;
 use super::outcome::Restriction;
-use super::problem::Problem;
-use crate::budget::{Budget, Interrupted};
+use super::pace::Pace;
+use super::problem::{Node, Problem};
+use crate::budget::Interrupted;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
-/// The problem without rules that hold the target, a held or an underivable object, and without objects on which the
-/// target does not depend. `Ok(None)` if the target can't be derived.
+/// A problem without rules and nodes that no least derivation needs.
+pub(super) struct Reduced {
+    pub(super) problem: Problem,
+    /// What every derivation of the target holds; not all of it is known where there are very many nodes.
+    pub(super) needed: Vec<Node>,
+}
+
+/// The problem without rules that hold the target, a held or an underivable object, without rules in whose place another
+/// one always serves, and without objects on which the target does not depend then. `Ok(None)` if the target can't be
+/// derived.
+///
+/// A derivation stays one, in the same order: where a rule is left out, all that it asks for needs what another asks for
+/// that stays. So landmarks of the reduced problem are landmarks.
 pub(super) fn reduce(
     base: &KnowledgeBase,
     target: ObjectIndex,
     restriction: &Restriction,
-    budget: &Budget<'_>,
-) -> Result<Option<Problem>, Interrupted> {
+    pace: &mut Pace<'_>,
+) -> Result<Option<Reduced>, Interrupted> {
     let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
-    let all = reached(base, target, |option| !option.iter().any(held), budget)?;
-    let mut chain = Chain::new(&all);
-    for node in 0..all.target() {
-        if node % 64 == 0 {
-            budget.check()?;
-        }
-        chain.allow(node);
-    }
+    let all = reached(base, target, |option| !option.iter().any(held), pace)?;
+    let chain = everything(&all, pace)?;
     if !chain.reaches_target() {
         return Ok(None);
     }
-    let mut derivable = vec![false; base.len()];
-    chain.moved().for_each(|node| derivable[all.object(node).get()] = true);
-    reached(base, target, |option| option.iter().all(|member| derivable[member.get()]), budget).map(Some)
+    let derivable = |rule: u32| all.body(rule).iter().all(|&node| chain.is_graspable(node));
+    let (all, _) = all.restricted(derivable, pace)?;
+    let chain = everything(&all, pace)?;
+    let order: Vec<Node> = chain.moved().chain([all.target()]).collect();
+    let Some(needs) = Needs::of(&all, &order, pace)? else {
+        return Ok(Some(Reduced { problem: all, needed: Vec::new() }));
+    };
+    let (problem, number) = all.restricted(|rule| !needs.is_idle(&all, rule), pace)?;
+    let needed = needs.of_node(all.target()).filter_map(|node| number[node]).filter(|&node| node != problem.target());
+    let needed = needed.collect();
+    Ok(Some(Reduced { problem, needed }))
+}
+
+/// Everything is moved that can be moved.
+fn everything<'p>(problem: &'p Problem, pace: &mut Pace<'_>) -> Result<Chain<'p>, Interrupted> {
+    let mut chain = Chain::new(problem);
+    for node in 0..problem.target() {
+        pace.step(1)?;
+        chain.allow(node);
+    }
+    Ok(chain)
 }
 
 /// What the target depends on through options that are `usable`: breadth first backwards from the target, numbered in
@@ -38,14 +63,14 @@ fn reached(
     base: &KnowledgeBase,
     target: ObjectIndex,
     usable: impl Fn(&[ObjectIndex]) -> bool,
-    budget: &Budget<'_>,
+    pace: &mut Pace<'_>,
 ) -> Result<Problem, Interrupted> {
     let mut seen = vec![false; base.len()];
     let mut objects = vec![target];
     let mut at = 0;
     while let Some(&object) = objects.get(at) {
         at += 1;
-        budget.check()?;
+        pace.step(1)?;
         for &member in base.options(object).filter(|option| usable(option)).flatten() {
             if !core::mem::replace(&mut seen[member.get()], true) {
                 objects.push(member);
@@ -53,5 +78,5 @@ fn reached(
         }
     }
     objects.reverse();
-    Problem::over(base, objects, usable, budget)
+    Problem::over(base, objects, usable, pace)
 }

@@ -1,6 +1,6 @@
 //! An instance as bits, read both ways, and the few changes of which everything else is made.
 
-use super::bits::Bits;
+use crate::search::bits::Bits;
 use crate::search::problem::Node;
 
 /// Sets to be met by as few elements as can be.
@@ -70,9 +70,9 @@ impl Instance {
             }
         }
         Self {
-            shrunk_sets: Bits::full(sets.len()),
-            shrunk_elements: Bits::full(labels.len()),
-            open: Bits::full(sets.len()),
+            shrunk_sets: Bits::full(1, sets.len()),
+            shrunk_elements: Bits::full(1, labels.len()),
+            open: Bits::full(1, sets.len()),
             prices: vec![0.0; sets.len()],
             labels,
             members,
@@ -199,7 +199,7 @@ impl Instance {
             labels: elements.iter().map(|&element| self.labels[element]).collect(),
             members,
             met,
-            open: Bits::full(sets.len()),
+            open: Bits::full(1, sets.len()),
             prices: sets.iter().map(|&set| self.prices[set]).collect(),
             shrunk_sets: Bits::new(1, sets.len()),
             shrunk_elements: Bits::new(1, elements.len()),

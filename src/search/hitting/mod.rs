@@ -4,7 +4,6 @@
 //! share no element; prices bound each part from below, and decide those elements that no small solution can do with, or
 //! without (`prices`); then one element is taken or left out (`branch`).
 
-mod bits;
 mod branch;
 mod greedy;
 mod instance;

@@ -15,10 +15,14 @@ impl Bits {
         Self { words, data: vec![0; rows * words] }
     }
 
-    /// Every bit of one row of `columns` set.
-    pub(super) fn full(columns: usize) -> Self {
-        let mut bits = Self::new(1, columns);
-        (0..columns).for_each(|column| bits.set(0, column));
+    /// Every bit set.
+    pub(super) fn full(rows: usize, columns: usize) -> Self {
+        let mut bits = Self::new(rows, columns);
+        bits.data.fill(u64::MAX);
+        let last = columns - columns.saturating_sub(1) / 64 * 64;
+        let rest = if last == 64 { u64::MAX } else { (1 << last) - 1 };
+        let words = bits.words;
+        bits.data.iter_mut().skip(words - 1).step_by(words).for_each(|word| *word = rest);
         bits
     }
 
@@ -67,5 +71,18 @@ impl Bits {
             })
             .map(move |rest| at * 64 + rest.trailing_zeros() as usize)
         })
+    }
+
+    /// Add a row's bits to another row of the same width.
+    pub(super) fn unite(&self, row: usize, into: &mut [u64]) {
+        into.iter_mut().zip(self.row(row)).for_each(|(word, other)| *word |= other);
+    }
+
+    /// Make a row this one. True if that changes it.
+    pub(super) fn replace(&mut self, row: usize, by: &[u64]) -> bool {
+        let row = &mut self.data[row * self.words..(row + 1) * self.words];
+        let changed = row != by;
+        row.copy_from_slice(by);
+        changed
     }
 }
