@@ -1,13 +1,21 @@
 //! The page of results is what its command writes.
 
-#[path = "../benches/results/figures.rs"]
-mod figures;
+#[path = "../benches/results/markdown.rs"]
+mod markdown;
 #[path = "../benches/results/page.rs"]
 mod page;
+#[path = "../benches/results/peers.rs"]
+mod peers;
 #[path = "../benches/results/peers_page.rs"]
 mod peers_page;
 #[path = "../benches/results/plots.rs"]
 mod plots;
+#[path = "../benches/results/table_plots.rs"]
+mod table_plots;
+#[path = "../benches/results/tables.rs"]
+mod tables;
+#[path = "../benches/results/tables_page.rs"]
+mod tables_page;
 
 use std::fs;
 use std::path::Path;

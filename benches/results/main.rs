@@ -1,9 +1,13 @@
 //! Writes `docs/RESULTS.md` and its pictures. With `--check` it writes nothing and fails where they would change.
 
-mod figures;
+mod markdown;
 mod page;
+mod peers;
 mod peers_page;
 mod plots;
+mod table_plots;
+mod tables;
+mod tables_page;
 
 use std::env;
 use std::fs;

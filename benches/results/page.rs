@@ -3,23 +3,44 @@
 use std::fs;
 use std::path::Path;
 
-use crate::figures::Peers;
-use crate::{peers_page, plots};
+use serde::de::DeserializeOwned;
 
-/// Where the figures are read, seen from the crate's root.
-const PEERS: &str = "docs/results/peers.json";
+use crate::markdown::wrapped;
+use crate::peers::Peers;
+use crate::tables::{Table1, Table2};
+use crate::{peers_page, plots, table_plots, tables_page};
+
+const HEAD: &str = "# Results\n\n\
+    `cargo bench --bench results` writes this page and its pictures from the files in [`results/`](results/): every \
+    figure here is one of theirs. They were measured on a shared machine with 2 cores; what is compared with each other \
+    was measured in the same run, but for the paper's own figures.\n\n\
+    | file | written by |\n| --- | --- |\n\
+    | `table1.json` | `singulate experiment table1 --format json` |\n\
+    | `table2.json` | `singulate experiment table2 --format json` |\n\
+    | `peers.json` | `benches/peers/run --out docs/results/peers.json` |\n";
 
 /// Every file that is made, with its path below the crate's root and its text.
 pub(crate) fn files() -> Vec<(&'static str, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let text = fs::read_to_string(root.join(PEERS)).expect("the committed figures");
-    let peers: Peers = serde_json::from_str(&text).expect("what benches/peers/run writes");
-    let head = "# Results\n\n\
-        `cargo bench --bench results` writes this page and its pictures from the files in [`results/`](results/): \
-        every figure here is one of theirs. They were measured on a shared machine with 2 cores; all that is compared \
-        was measured in the same run.\n\n";
+    let (table1, table2, peers): (Table1, Table2, Peers) =
+        (read("table1.json"), read("table2.json"), read("peers.json"));
+    let sections = [
+        HEAD.to_owned(),
+        peers_page::section(&peers),
+        tables_page::table1(&table1),
+        tables_page::table2(&table2),
+        tables_page::apart(&table1),
+    ];
+    let drawn = "finite figures";
     vec![
-        ("docs/RESULTS.md", format!("{head}{}", peers_page::section(&peers))),
-        ("docs/results/peers.svg", plots::peers(&peers).expect("a plot of finite figures")),
+        ("docs/RESULTS.md", wrapped(&sections.join("\n"))),
+        ("docs/results/peers.svg", plots::peers(&peers).expect(drawn)),
+        ("docs/results/deadlocks.svg", table_plots::deadlocks(&table1).expect(drawn)),
+        ("docs/results/times.svg", table_plots::times(&table1).expect(drawn)),
     ]
+}
+
+fn read<T: DeserializeOwned>(name: &str) -> T {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results").join(name);
+    let text = fs::read_to_string(&path).expect("the committed figures");
+    serde_json::from_str(&text).expect("what its command writes")
 }

@@ -1,6 +1,7 @@
 //! Ours against the peers, in words and tables.
 
-use crate::figures::{Instance, PEERS, Peers, median, worst};
+use crate::markdown::{digits, ms, table};
+use crate::peers::{Instance, PEERS, Peers, median, worst};
 
 /// A table: its rows, each a list of cells; the first is the head.
 type Rows = Vec<Vec<String>>;
@@ -23,9 +24,9 @@ pub(crate) fn section(peers: &Peers) -> String {
          ### 10,000 objects\n\n\
          No optimum is asked for here, but which of all objects can be derived at all: one closure. {}\n",
         agreement(peers),
-        markdown(&times(peers, "class", &peers.classes())),
-        markdown(&alone(peers)),
-        markdown(&times(peers, "family", &peers.families())),
+        table(&times(peers, "class", &peers.classes())),
+        table(&alone(peers)),
+        table(&times(peers, "family", &peers.families())),
         crowds(peers),
     )
 }
@@ -121,34 +122,6 @@ fn within(seconds: f64, limit: f64) -> String {
     if seconds.is_finite() { ms(seconds) } else { format!("> {}", ms(limit)) }
 }
 
-/// In milliseconds.
-fn ms(seconds: f64) -> String {
-    digits(seconds * 1e3)
-}
-
 fn times_as_long(ratio: f64) -> String {
     if ratio.is_finite() { digits(ratio) } else { "∞".to_owned() }
-}
-
-/// Three digits, or as many as stand before the point; from 1,000 on with commas.
-fn digits(value: f64) -> String {
-    if value >= 999.5 {
-        let whole = format!("{value:.0}");
-        let (first, last) = whole.split_at(whole.len() - 3);
-        return format!("{first},{last}");
-    }
-    let places = match value {
-        v if v >= 100.0 => 0,
-        v if v >= 10.0 => 1,
-        v if v >= 1.0 => 2,
-        v if v >= 0.1 => 3,
-        _ => 4,
-    };
-    format!("{value:.places$}")
-}
-
-fn markdown(rows: &Rows) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let rule = line(&vec!["---".to_owned(); rows[0].len()]);
-    rows.iter().enumerate().map(|(at, row)| if at == 0 { line(row) + &rule } else { line(row) }).collect()
 }

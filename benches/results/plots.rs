@@ -1,14 +1,16 @@
-//! The pictures.
+//! The picture of the peers, and what all pictures share.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::figures::{Instance, PEERS, Peers};
+use crate::peers::{Instance, PEERS, Peers};
 
-type Outcome<T> = Result<T, Box<dyn core::error::Error>>;
+/// Drawing into a string fails only where a figure is no number.
+pub(crate) type Outcome<T> = Result<T, Box<dyn core::error::Error>>;
 
 const SIZE: (u32, u32) = (1000, 520);
-const FONT: &str = "sans-serif";
+/// Named, not loaded: who looks at the picture has one.
+pub(crate) const FONT: &str = "sans-serif";
 /// Told apart by people who see few colours too (Okabe & Ito): ours, then the peers in order.
 const COLOURS: [RGBColor; 4] =
     [RGBColor(213, 94, 0), RGBColor(0, 114, 178), RGBColor(0, 158, 115), RGBColor(110, 110, 110)];
@@ -49,7 +51,11 @@ pub(crate) fn peers(peers: &Peers) -> Outcome<String> {
             let below = chart.backend_coord(&(float(at) + 0.5, FASTEST));
             root.draw(&Text::new(*name, (below.0 - 5 * half(name), below.1 + 8), (FONT, 15)))?;
         }
-        legend(&root)?;
+        let names = ["ours"].into_iter().chain(PEERS.map(|(_, name)| name));
+        for (at, (name, colour)) in names.zip(COLOURS).enumerate() {
+            key(&root, at, (5, 120), name, (colour, true))?;
+        }
+        key(&root, 4, (5, 120), "not finished within the limit", (BLACK, false))?;
         root.present()?;
     }
     Ok(text)
@@ -76,18 +82,24 @@ fn strip(
     instances.iter().enumerate().map(mark).collect()
 }
 
-/// Above the plot, in one line.
-fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<()> {
-    let names = ["ours"].into_iter().chain(PEERS.map(|(_, name)| name));
-    for ((name, colour), x) in names.zip(COLOURS).zip((90..).step_by(110)) {
-        root.draw(&Circle::new((x, 17), 4, colour.filled()))?;
-        root.draw(&Text::new(name, (x + 10, 10), (FONT, 15)))?;
-    }
-    root.draw(&Text::new("ring: not finished within the limit", (540, 10), (FONT, 15)))?;
+/// An entry of the legend above a plot: number `at` of rows of `columns`, each `width` pixels wide.
+pub(crate) fn key(
+    root: &DrawingArea<SVGBackend<'_>, Shift>,
+    at: usize,
+    (columns, width): (usize, i32),
+    name: &str,
+    (colour, filled): (RGBColor, bool),
+) -> Outcome<()> {
+    let (row, column) = (i32::try_from(at / columns)?, i32::try_from(at % columns)?);
+    let (x, y) = (90 + column * width, 17 + row * 22);
+    let style = if filled { colour.filled() } else { colour.stroke_width(2) };
+    root.draw(&Circle::new((x, y), 4, style))?;
+    root.draw(&Text::new(name.to_owned(), (x + 10, y - 7), (FONT, 15)))?;
     Ok(())
 }
 
-fn duration(seconds: f64) -> String {
+/// A label of an axis of seconds.
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s >= 0.999 => format!("{s:.0} s"),
         s if s >= 0.999e-3 => format!("{:.0} ms", s * 1e3),
@@ -100,6 +112,7 @@ fn half(word: &str) -> i32 {
     i32::try_from(word.len() / 2).expect("a short word")
 }
 
-fn float(count: usize) -> f64 {
+/// As a float.
+pub(crate) fn float(count: usize) -> f64 {
     f64::from(u32::try_from(count).expect("a small count"))
 }

@@ -1,0 +1,74 @@
+//! Tables, text and numbers as the page shows them.
+
+/// How wide a line may be. Headings, tables and pictures are as wide as they are.
+const WIDTH: usize = 120;
+
+/// The text with its paragraphs and bullets broken into lines.
+pub(crate) fn wrapped(text: &str) -> String {
+    let line = |line: &str| if line.starts_with(['#', '|', '!']) { line.to_owned() } else { broken(line) };
+    text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+fn broken(paragraph: &str) -> String {
+    let indent = if paragraph.starts_with("* ") { "\n  " } else { "\n" };
+    let mut text = String::new();
+    let mut width = 0;
+    for word in paragraph.split(' ') {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > WIDTH {
+            text += indent;
+            width = indent.len() - 1;
+        } else if width > 0 {
+            text.push(' ');
+            width += 1;
+        }
+        text += word;
+        width += length;
+    }
+    text
+}
+
+/// A table: rows of cells, of which the first is the head.
+pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let rule = line(&vec!["---".to_owned(); rows[0].len()]);
+    rows.iter().enumerate().map(|(at, row)| if at == 0 { line(row) + &rule } else { line(row) }).collect()
+}
+
+/// Cells of one row.
+pub(crate) fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
+}
+
+/// Three digits, or as many as stand before the point; from 1,000 on with commas. No more than four behind the point.
+pub(crate) fn digits(value: f64) -> String {
+    if value >= 999.5 {
+        let whole = format!("{value:.0}");
+        let (first, last) = whole.split_at(whole.len() - 3);
+        return format!("{first},{last}");
+    }
+    let places = match value {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 1.0 => 2,
+        v if v >= 0.1 => 3,
+        _ => 4,
+    };
+    format!("{value:.places$}")
+}
+
+/// Seconds, in milliseconds.
+pub(crate) fn ms(seconds: f64) -> String {
+    digits(seconds * 1e3)
+}
+
+/// A rate from 0 to 1.
+pub(crate) fn percent(rate: f64) -> String {
+    let percent = rate * 100.0;
+    if (percent - percent.round()).abs() < 1e-9 { format!("{percent:.0} %") } else { format!("{percent:.1} %") }
+}
+
+/// Or a dash where there is nothing.
+pub(crate) fn or_dash<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), show)
+}
