@@ -88,7 +88,8 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
         table(&titles, rows),
         "Times are over the episodes in which something has to be moved: all but the graspable ones.\n\
          Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an \
-         obstacle when it lets go.\n"
+         obstacle when it lets go. The exact places are sought by the sector model too, which overlooks the fingers' outer\n\
+         corners: hence their faults.\n"
             .to_owned(),
         format!("{NOT_THE_SAME}\n"),
     ]

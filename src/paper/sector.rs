@@ -1,8 +1,10 @@
 //! The angle that an obstacle takes from the gripper: Eq. 9 and 10.
 //!
 //! The finger is widened to the angle that it has at the grasped object's edge, so that graspable objects are called
-//! blocked. Eq. 10 is undefined for a disc inside the ring that the fingers sweep, and too small where the points in which
-//! the disc is widest, as seen from the grasped object, lie inside the ring. There the tangent angle is taken instead.
+//! blocked. The ring ends at r_t + r_g, but the finger's outer corners reach a little farther (0.4 mm for the paper's
+//! plates): an obstacle that only they meet is overlooked. Eq. 10 is undefined for a disc inside the ring that the fingers
+//! sweep, and too small where the points in which the disc is widest, as seen from the grasped object, lie inside the ring.
+//! There the tangent angle is taken instead.
 
 use core::f64::consts::TAU;
 
