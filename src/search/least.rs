@@ -67,9 +67,15 @@ impl<'p> Search<'p> {
         first?;
         self.learn_one_of_each();
         // Cheap sets first: each that fails teaches more landmarks.
+        let mut priced = self.landmarks.len();
         loop {
             if self.best.len() <= self.bound {
                 return Ok(());
+            }
+            if self.landmarks.len() > 2 * priced {
+                priced = self.landmarks.len();
+                self.raise_bound(pace)?;
+                continue;
             }
             let candidate = hitting::greedy(&self.landmarks, pace)?;
             if !self.learn(&candidate, pace)? {
@@ -80,6 +86,13 @@ impl<'p> Search<'p> {
             let Some(hit) = self.least_hitting_set(pace)? else { break };
             self.learn(&hit, pace)?;
         }
+        Ok(())
+    }
+
+    fn raise_bound(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        let forced = self.forced.len();
+        let bound = forced + hitting::bound(&self.landmarks, self.best.len() - forced, pace)?;
+        self.bound = self.bound.max(bound);
         Ok(())
     }
 

@@ -1,5 +1,7 @@
 //! The search against an exhaustive solver.
 
+use super::pace::Pace;
+use super::reduction::reduce;
 use super::{LeastSet, Outcome, Restriction, least};
 use crate::budget::Budget;
 use crate::knowledge::{KnowledgeBase, close};
@@ -98,6 +100,31 @@ fn sets_come_in_order_under_restrictions() {
     assert_eq!(solve(&[1], &[]), Some(vec![2, 3]));
     assert_eq!(solve(&[1, 2], &[]), None);
     assert_eq!(solve(&[1], &[3]), Some(vec![2, 3]));
+}
+
+/// The objects that are left besides the target, and those of them that every derivation needs.
+fn reduced(options: &[Vec<Vec<usize>>]) -> (usize, Vec<usize>) {
+    let budget = Budget::unlimited();
+    let (base, target) = (base(options), ObjectIndex::new(0));
+    let reduced = reduce(&base, target, &Restriction::default(), &mut Pace::new(&budget)).unwrap().expect("derivable");
+    let mut needed: Vec<usize> = reduced.needed.iter().map(|&node| reduced.problem.object(node).get()).collect();
+    needed.sort_unstable();
+    (reduced.problem.movable(), needed)
+}
+
+#[test]
+fn what_all_ways_share_is_needed() {
+    // t←{a} or {b}, a←{c}, b←{c}, c free.
+    assert_eq!(reduced(&[vec![vec![1], vec![2]], vec![vec![3]], vec![vec![3]], vec![vec![]]]), (3, vec![3]));
+}
+
+#[test]
+fn an_option_that_implies_another_is_left_out() {
+    // t←{a} or {b,c}, b←{a}, a and c free: whoever has moved b has moved a.
+    assert_eq!(reduced(&[vec![vec![1], vec![2, 3]], vec![vec![]], vec![vec![1]], vec![vec![]]]), (1, vec![1]));
+    // Two that imply each other: t←{a} or {b}, a←{b} or {c}, b←{a} or {c}, c free. Neither may take the other along.
+    let both = [vec![vec![1], vec![2]], vec![vec![2], vec![3]], vec![vec![1], vec![3]], vec![vec![]]];
+    assert_eq!(reduced(&both), (3, vec![3]));
 }
 
 fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {

@@ -30,7 +30,7 @@ const ROUNDS: usize = 12;
 pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<'_>) -> Hits {
     let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
     divide(&mut family);
-    let bound = family.packing().max(improve(&mut family, usize::MAX, 0).at_least());
+    let bound = family.packing().max(improve(&mut family, usize::MAX, 0, meter).at_least());
     let Ok(reduced) = family.reduce(meter) else { return Hits { at_least: bound, exact: false } };
     let mut hits = Hits { at_least: reduced.forced, exact: true };
     for mut component in reduced.rest.components() {
@@ -52,8 +52,7 @@ pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<
 fn search(mut component: Family, floor: &mut usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
     let size = component.sets.iter().map(|set| set.members().len()).sum::<usize>();
     let known = greedy(component.clone(), meter)?;
-    meter.spend(component.units() * FIRST_ROUNDS)?;
-    *floor = (*floor).max(improve(&mut component, known, FIRST_ROUNDS).at_least());
+    *floor = (*floor).max(improve(&mut component, known, FIRST_ROUNDS, meter).at_least());
     if *floor >= known {
         return Ok(known);
     }
@@ -107,9 +106,9 @@ fn least(family: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> R
 
 /// Like [`least`], for a reduced component. What the shares decide is decided; else some element is taken, or refused.
 fn branch(mut component: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    meter.spend(component.units() * ROUNDS)?;
+    meter.spend(component.units())?;
     let Some(depth) = depth.checked_sub(1) else { return Err(Interrupted) };
-    let worth = improve(&mut component, limit, ROUNDS);
+    let worth = improve(&mut component, limit, ROUNDS, meter);
     if worth.at_least() >= limit {
         return Ok(limit);
     }
@@ -164,7 +163,7 @@ mod tests {
             prop_assert_eq!(solve(&sets, 12), Hits { at_least: exact, exact: true });
             let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
             divide(&mut family);
-            prop_assert!(family.packing() <= exact && improve(&mut family, exact + 1, 40).at_least() <= exact);
+            prop_assert!(family.packing() <= exact && improve(&mut family, exact + 1, 40, &mut Meter::new(&Budget::unlimited())).at_least() <= exact);
         }
 
         /// Two tangles and a few links: a choice among the links leaves parts that are searched apart.
@@ -200,7 +199,10 @@ mod tests {
         let pairs = (0..5).flat_map(|a| (a + 1..5).map(move |b| Set::new(vec![a, b])));
         let mut family = Family { sets: pairs.collect(), width: 5 };
         divide(&mut family);
-        assert_eq!((family.packing(), improve(&mut family, 4, 0).at_least()), (2, 3));
+        assert_eq!(
+            (family.packing(), improve(&mut family, 4, 0, &mut Meter::new(&Budget::unlimited())).at_least()),
+            (2, 3)
+        );
     }
 
     #[test]

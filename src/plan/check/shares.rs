@@ -1,6 +1,7 @@
 //! What sets and elements are worth: a bound that pays for each set by its elements.
 
 use super::family::{Family, Set};
+use super::meter::Meter;
 
 /// Rounding adds up to far less than this, and a whole number must not become the next one.
 const ROUNDING: f64 = 1e-6;
@@ -59,15 +60,16 @@ pub(super) fn divide(family: &mut Family) {
 }
 
 /// Move the shares towards what is worth most: a set that would be hit by several elements in demand gets less, one that
-/// would be hit by none gets more. Ends after so many `rounds`, or once `limit` elements are seen to be needed. The
-/// shares that were worth most stay.
-pub(super) fn improve(family: &mut Family, limit: usize, rounds: usize) -> Worth {
+/// would be hit by none gets more. Ends after so many `rounds`, once `limit` elements are seen to be needed, or with
+/// the budget. The shares that were worth most stay.
+pub(super) fn improve(family: &mut Family, limit: usize, rounds: usize, meter: &mut Meter<'_>) -> Worth {
     let mut best = Worth::of(family);
     let mut kept: Vec<f64> = family.sets.iter().map(|set| set.share).collect();
     let (mut stride, mut since) = (1.0_f64, 0);
     let mut now = Worth::of(family);
     for _ in 0..rounds {
-        if best.at_least() >= limit || !shift(family, &now, limit, stride) {
+        let ended = best.at_least() >= limit || meter.spend(family.units()).is_err();
+        if ended || !shift(family, &now, limit, stride) {
             break;
         }
         now = Worth::of(family);

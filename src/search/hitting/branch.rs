@@ -20,28 +20,54 @@ pub(in crate::search) fn least(
     limit: usize,
     pace: &mut Pace<'_>,
 ) -> Result<Option<Vec<Node>>, usize> {
-    let (mut instance, mut decided) = (Instance::new(landmarks), Decided::default());
-    match reduce(&mut instance, &mut decided, pace) {
-        Ok(true) => {}
-        Ok(false) => return Ok(None),
-        Err(Interrupted) => return Err(0),
-    }
-    let mut bound = decided.count();
-    let Some(limit) = limit.checked_sub(bound).filter(|limit| *limit > 0) else { return Ok(None) };
-    let mut parts = instance.parts();
-    let mut bounds = Vec::with_capacity(parts.len());
-    for part in &mut parts {
-        share(part);
-        bounds.push(raise(part, limit, FIRST_ROUNDS).bound());
-    }
-    bound += bounds.iter().sum::<usize>();
-    let mut search = Search { pace };
-    let found = search.each(parts, &bounds, limit, MAX_DEPTH).map_err(|Interrupted| bound)?;
+    let Ok(root) = Root::new(landmarks, limit, pace) else { return Err(0) };
+    let bound = root.bound();
+    let Some(rest) = limit.checked_sub(root.decided.count()).filter(|rest| *rest > 0) else { return Ok(None) };
+    let found = Search { pace }.each(root.parts, &root.bounds, rest, MAX_DEPTH).map_err(|Interrupted| bound)?;
     Ok(found.map(|rest| {
-        let mut found = decided.complete(rest);
+        let mut found = root.decided.complete(rest);
         found.sort_unstable();
         found
     }))
+}
+
+/// No set of fewer members meets every landmark; found without any choice.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(in crate::search) fn bound(
+    landmarks: &[Vec<Node>],
+    limit: usize,
+    pace: &mut Pace<'_>,
+) -> Result<usize, Interrupted> {
+    Ok(Root::new(landmarks, limit, pace)?.bound())
+}
+
+/// Where a search begins.
+struct Root {
+    decided: Decided,
+    parts: Vec<Instance>,
+    /// Per part how many elements it needs at least.
+    bounds: Vec<usize>,
+}
+
+impl Root {
+    fn new(landmarks: &[Vec<Node>], limit: usize, pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
+        let (mut instance, mut decided) = (Instance::new(landmarks), Decided::default());
+        // No landmark is empty, so each can be met.
+        reduce(&mut instance, &mut decided, pace)?;
+        let mut parts = instance.parts();
+        let mut price = |part: &mut Instance| {
+            share(part);
+            raise(part, limit, FIRST_ROUNDS, pace).bound()
+        };
+        let bounds = parts.iter_mut().map(&mut price).collect();
+        Ok(Self { decided, parts, bounds })
+    }
+
+    fn bound(&self) -> usize {
+        self.decided.count() + self.bounds.iter().sum::<usize>()
+    }
 }
 
 struct Search<'s, 'b> {
@@ -90,8 +116,8 @@ impl Search<'_, '_> {
     /// Like [`Self::below`], for one reduced part: some element is taken, or it is not.
     fn choose(&mut self, mut part: Instance, limit: usize, depth: usize) -> Found {
         let depth = depth.checked_sub(1).ok_or(Interrupted)?;
-        self.pace.step(1 + part.sets() / 4)?;
-        let worth = raise(&mut part, limit, ROUNDS);
+        self.pace.step(1)?;
+        let worth = raise(&mut part, limit, ROUNDS, self.pace);
         if worth.bound() >= limit {
             return Ok(None);
         }

@@ -12,5 +12,5 @@ mod reduce;
 #[cfg(test)]
 mod tests;
 
-pub(super) use branch::least;
+pub(super) use branch::{bound, least};
 pub(super) use greedy::greedy;

@@ -5,6 +5,7 @@
 //! p for each set that is missed). With the best prices that is the bound of linear programming.
 
 use super::instance::Instance;
+use crate::search::pace::Pace;
 
 /// Rounding adds up to far less, and a whole number must not become the next one.
 const SAFE: f64 = 1e-6;
@@ -37,15 +38,15 @@ fn whole(total: f64) -> usize {
 }
 
 /// Raise the prices of an instance whose sets are all open, in so many rounds, or until they show that `limit` elements
-/// are needed.
-pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize) -> Valuation {
+/// are needed, or the budget ends: any prices are good for a bound.
+pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize, pace: &mut Pace<'_>) -> Valuation {
     let (first, flat) = flat_members(instance);
     let sets = instance.sets();
     let members = |set: usize| &flat[first[set]..first[set + 1]];
     let mut prices = instance.prices.clone();
     let mut best = Valuation { total: f64::NEG_INFINITY, loads: Vec::new() };
     let (mut loads, mut gradient) = (vec![0.0_f64; instance.elements()], vec![0.0_f64; sets]);
-    let (mut pace, mut stale) = (1.0_f64, 0);
+    let (mut stride, mut stale) = (1.0_f64, 0);
     for _ in 0..=rounds {
         loads.fill(0.0);
         (0..sets).for_each(|set| members(set).iter().for_each(|&element| loads[element] += prices[set]));
@@ -57,11 +58,11 @@ pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize) -> Val
             best.loads.clone_from(&loads);
             instance.prices.clone_from(&prices);
         }
-        if best.bound() >= limit {
+        if best.bound() >= limit || pace.step(1 + flat.len() / 256).is_err() {
             break;
         }
         if stale > 4 {
-            pace *= 0.5;
+            stride *= 0.5;
             stale = 0;
         }
         let mut norm = 0.0;
@@ -74,7 +75,7 @@ pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize) -> Val
             break;
         }
         #[expect(clippy::cast_precision_loss, reason = "counts elements")]
-        let step = pace * (limit as f64 - total) / norm;
+        let step = stride * (limit as f64 - total) / norm;
         prices.iter_mut().zip(&gradient).for_each(|(price, slope)| *price = (*price + step * slope).max(0.0));
     }
     best

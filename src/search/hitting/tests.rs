@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{greedy, least};
+use super::{bound, greedy, least};
 use crate::budget::Budget;
 use crate::search::pace::Pace;
 use crate::search::problem::Node;
@@ -24,6 +24,7 @@ fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
         let found = least(sets, limit, &mut Pace::new(&budget)).unwrap();
         prop_assert_eq!(found.as_ref().map(Vec::len), (exact < limit).then_some(exact));
         prop_assert!(found.is_none_or(|found| meets(&found)));
+        prop_assert!(bound(sets, limit, &mut Pace::new(&budget)).unwrap() <= exact);
     }
     let small = greedy(sets, &mut Pace::new(&budget)).unwrap();
     prop_assert!(meets(&small) && small.len() >= exact);
