@@ -1,10 +1,10 @@
 //! Plans the fewest relocations that free an object on a crowded table, and proves it.
 //!
 //! In reading order: a checked [`scene`]; exact [`geometry`] of fingers and discs; the [`knowledge`] of which obstacles
-//! must go first; the [`search`] for the least set of them, with its proof; the [`placement`] of what is moved;
-//! the [`paper`]'s own methods; the [`plan`] that couples these and its independent checker. Round that pure core lie the edges: [`wire`] knows JSON,
-//! [`jobs`] threads, [`api`] HTTP, [`render`] drawings, [`experiments`] generated scenes, [`cli`] the command line, [`config`]
-//! its settings and [`telemetry`] the log.
+//! must go first; the [`search`] for the least set of them, with its proof; the [`placement`] of what is moved; the
+//! [`paper`]'s own methods; the [`plan`] that couples these and its independent checker. Round that pure core lie the
+//! edges: [`wire`] knows JSON, [`jobs`] threads, [`api`] HTTP, [`render`] drawings, [`experiments`] made-up scenes and the
+//! paper's tables, [`cli`] the command line, [`config`] its settings and [`telemetry`] the log.
 
 pub mod api;
 pub mod budget;

@@ -18,9 +18,6 @@ const MANY: usize = 40;
 /// What `no_space` does not say.
 const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
 
-/// A deadlock that only one of the paper's methods claims.
-const UNPROVEN: &str = "The method that was asked for says so; it is not proven.\n";
-
 /// The text with control characters made visible: an id must not move the cursor or forge a line.
 pub(super) fn plain(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
@@ -37,14 +34,15 @@ pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
         Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
         Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
         Verdict::Deadlock(Some(deadlock)) => paragraphs.push(why_never(scene, deadlock)),
-        Verdict::Deadlock(None) => paragraphs.push(UNPROVEN.to_owned()),
+        // All that can be said is in the headline and the warnings.
+        Verdict::Deadlock(None) => {}
         Verdict::NoSpace(known) => paragraphs.extend([so_far(scene, known), NO_PROOF.to_owned()]),
         Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
     }
     paragraphs.push(
         warnings(request, answer)
             .iter()
-            .map(|warning| format!("warning: {} at {}\n", plain(&warning.detail), plain(&warning.pointer)))
+            .map(|warning| format!("warning: {} ({})\n", plain(&warning.detail), plain(&warning.pointer)))
             .collect(),
     );
     paragraphs.push(times(&answer.statistics));
@@ -89,7 +87,9 @@ fn why_least(scene: &Scene, plan: &Plan) -> String {
     if plan.optimal() {
         return format!("{bound}So {cost} is the least.\n");
     }
-    format!("{bound}So {least} or more are needed; whether fewer than {cost} suffice is not known.\n")
+    let needed = if least == 0 { String::new() } else { format!("{bound}So {least} or more are needed; ") };
+    let whether = if least == 0 { "Whether" } else { "whether" };
+    format!("{needed}{whether} fewer than {cost} suffice is not known.\n")
 }
 
 /// The landmarks as sentences.

@@ -1,10 +1,8 @@
-//! TG-MVFH+: the polar histogram round an object, and the local obstacle sets read off it. Eq. 1 to 4, 8 and 11.
+//! TG-MVFH+: the polar histogram round an object, and the local obstacle sets read off it. Eq. 1 to 4, 8 and 11, with
+//! sectors of one degree (α = 1).
 
 use super::sector::{finger_angle, obstacle_extent};
 use crate::scene::{ObjectIndex, Scene, distance};
-
-/// α, the width of an angular sector, degrees.
-pub const SECTOR_WIDTH: f64 = 1.0;
 
 /// The side of a cell of the grid in which Eq. 1 measures distances, m. The paper gives no figure; whether a sector is
 /// blocked does not depend on it.
@@ -13,7 +11,7 @@ const CELL: f64 = 0.005;
 /// b of Eq. 8, per square cell. The paper leaves it open: Eq. 8 then gives a.
 const B: f64 = 1.0;
 
-/// Two sectors' worth of rounding, rad: a sector that counts as free has a free interval round it that counts.
+/// By so much each obstacle is widened on both sides, rad: round a sector that is free an interval is, wide enough to count.
 const ROUNDING: f64 = 1e-9;
 
 /// One local obstacle in the histogram.
@@ -93,7 +91,7 @@ impl PolarHistogram {
     /// z = 0, 1, … below θ_k.
     fn sectors(&self) -> impl Iterator<Item = f64> + use<> {
         let turn = 360.0 / f64::from(self.fingers);
-        (0..360_u32).map(|z| f64::from(z) * SECTOR_WIDTH).take_while(move |z| *z < turn)
+        (0..360_u32).map(f64::from).take_while(move |z| *z < turn)
     }
 }
 

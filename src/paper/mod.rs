@@ -18,7 +18,7 @@ mod sector;
 
 pub use conclusion::Conclusion;
 pub use forward_astar::forward_astar;
-pub use histogram::{PolarHistogram, SECTOR_WIDTH, sector_options};
+pub use histogram::{PolarHistogram, sector_options};
 pub use lobs::lobs;
-pub use raster::{DEFAULT_RESOLUTION, MAX_PIXELS, MAX_SIDE, Raster, TooFine, reposition};
+pub use raster::{DEFAULT_RESOLUTION, Raster, TooFine, reposition};
 pub use sector::{sector_shadow, tangent_angles};

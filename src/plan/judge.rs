@@ -48,6 +48,12 @@ pub(super) fn judge(
             Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
         },
     };
+    if let (Verdict::Relocate(plan), Opinion::Bound { least: Some(least), .. }) = (&verdict, &opinion)
+        && settings.grasp_model == GraspModel::Sector
+        && *least < plan.cost()
+    {
+        warnings.push(Warning::FewerSuffice { least: *least });
+    }
     apply(&mut verdict, opinion, warnings);
     Ok(verdict)
 }
@@ -55,9 +61,9 @@ pub(super) fn judge(
 /// Of the grasps that knowledge was asked for.
 fn count_tangent_angles(scene: &Scene, base: Option<&KnowledgeBase>, warnings: &mut Vec<Warning>) {
     let asked = |object| object == scene.target() || base.is_some_and(|base| base.options(object).next().is_some());
-    let obstacles = scene.indices().filter(|object| asked(*object)).map(|object| tangent_angles(scene, object)).sum();
-    if obstacles > 0 {
-        warnings.push(Warning::TangentAngle { obstacles });
+    let pairs = scene.indices().filter(|object| asked(*object)).map(|object| tangent_angles(scene, object)).sum();
+    if pairs > 0 {
+        warnings.push(Warning::TangentAngle { pairs });
     }
 }
 

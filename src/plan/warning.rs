@@ -7,10 +7,10 @@ use super::check::Fault;
 /// One warning.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// For so many obstacles Eq. 10 is undefined or too small, and the tangent angle stands in.
+    /// Eq. 10 is undefined or too small here and there, and the tangent angle stands in.
     TangentAngle {
-        /// Obstacles of grasps that were looked at.
-        obstacles: usize,
+        /// So many pairs of a grasped object and an obstacle, of the grasps that were looked at.
+        pairs: usize,
     },
     /// The search found no sequence, but the exact search on the same base did.
     FalseDeadlock {
@@ -26,6 +26,11 @@ pub enum Warning {
     },
     /// The search reached its limit of memory.
     SearchTooLarge,
+    /// The plan is longer than the swept finger needs.
+    FewerSuffice {
+        /// The least number of relocations by the swept finger, places apart.
+        least: usize,
+    },
     /// The deadlock is not proven for the swept finger: refuted, where the least number of relocations is known.
     UnprovenDeadlock {
         /// The least number of relocations by the swept finger, places apart.
@@ -52,6 +57,7 @@ impl Warning {
             Self::FalseDeadlock { .. } => "false_deadlock",
             Self::NotOptimal { .. } => "not_optimal",
             Self::SearchTooLarge => "search_too_large",
+            Self::FewerSuffice { .. } => "fewer_suffice",
             Self::UnprovenDeadlock { .. } => "unproven_deadlock",
             Self::Faulty(fault) => fault.code.name(),
         }
@@ -60,7 +66,9 @@ impl Warning {
     /// Where it comes from.
     pub fn cause(&self) -> Cause<'_> {
         match self {
-            Self::TangentAngle { .. } | Self::UnprovenDeadlock { .. } => Cause::Setting("grasp_model"),
+            Self::TangentAngle { .. } | Self::FewerSuffice { .. } | Self::UnprovenDeadlock { .. } => {
+                Cause::Setting("grasp_model")
+            }
             Self::FalseDeadlock { .. } | Self::NotOptimal { .. } | Self::SearchTooLarge => Cause::Setting("search"),
             Self::Faulty(Fault { object: Some(id), .. }) => Cause::Object(id),
             Self::Faulty(_) => Cause::Setting("placement"),
@@ -71,25 +79,60 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TangentAngle { obstacles } => write!(
+            Self::TangentAngle { pairs } => write!(
                 f,
-                "for {obstacles} obstacles inside the fingers' ring Eq. 10 is undefined or too small: the tangent angle is taken"
+                "Eq. 10 is undefined or too small for {pairs} of an object and an obstacle inside the ring of its fingers: the tangent angle is taken",
+                pairs = counted(*pairs, "pair")
             ),
             Self::FalseDeadlock { least } => {
-                write!(f, "no sequence found, but {least} relocations free the target by the same knowledge")
+                write!(
+                    f,
+                    "no sequence found, but by the same knowledge one of {} frees the target",
+                    relocations(*least)
+                )
             }
             Self::NotOptimal { found, least } => {
-                write!(f, "{found} relocations found, but {least} are enough by the same knowledge")
+                write!(f, "{} found, but by the same knowledge {least} suffice", relocations(*found))
             }
             Self::SearchTooLarge => write!(f, "the search reached its limit of memory"),
+            Self::FewerSuffice { least } => write!(f, "by the swept finger {least} suffice, places apart"),
             Self::UnprovenDeadlock { least: Some(least) } => {
-                write!(f, "no deadlock for the swept finger: {least} relocations free the target, places apart")
+                write!(f, "no deadlock for the swept finger: {} suffice, places apart", relocations(*least))
             }
             Self::UnprovenDeadlock { least: None } => {
                 write!(f, "whether this is a deadlock for the swept finger too could not be told in time")
             }
-            Self::Faulty(Fault { step: Some(step), detail, .. }) => write!(f, "relocation {step}: {detail}"),
+            Self::Faulty(Fault { step: Some(step), detail, .. }) => write!(f, "step {}: {detail}", step + 1),
             Self::Faulty(fault) => write!(f, "{}", fault.detail),
         }
+    }
+}
+
+fn relocations(count: usize) -> String {
+    counted(count, "relocation")
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::check::FaultCode;
+
+    #[test]
+    fn a_step_is_counted_from_one_and_one_of_a_kind_has_no_plural() {
+        let fault = Fault {
+            code: FaultCode::ReleaseBlocked,
+            step: Some(0),
+            object: Some("plate".into()),
+            detail: "a finger".into(),
+        };
+        let faulty = Warning::Faulty(fault);
+        assert_eq!((faulty.code(), faulty.cause()), ("release_blocked", Cause::Object("plate")));
+        assert_eq!(faulty.to_string(), "step 1: a finger");
+        let texts = [1, 2].map(|least| Warning::UnprovenDeadlock { least: Some(least) }.to_string());
+        assert!(texts[0].contains("1 relocation suffice") && texts[1].contains("2 relocations suffice"), "{texts:?}");
     }
 }

@@ -6,12 +6,15 @@ use svg::node::element::Group;
 use super::label;
 use super::paint;
 use super::view::{PADDING, View};
-use crate::plan::{Answer, LowerBound, Plan, Verdict};
+use crate::plan::{Answer, LowerBound, Plan, Verdict, Warning};
 use crate::scene::{ObjectIndex, Scene};
 
 /// The verdict in one line, without ids.
 pub fn headline(answer: &Answer) -> String {
     match &answer.verdict {
+        Verdict::Graspable(_) if answer.faulty() => {
+            "graspable: nothing has to move (does not pass its check)".to_owned()
+        }
         Verdict::Graspable(_) => "graspable: nothing has to move".to_owned(),
         Verdict::Relocate(plan) if answer.faulty() => format!("{} (does not pass its check)", relocate(plan)),
         Verdict::Relocate(plan) => format!("{} ({})", relocate(plan), proof(plan)),
@@ -42,7 +45,11 @@ fn relocate(plan: &Plan) -> String {
 }
 
 fn proof(plan: &Plan) -> String {
-    if plan.optimal() { "proven least".to_owned() } else { bound(plan.bound.as_ref()) }
+    match &plan.bound {
+        _ if plan.optimal() => "proven least".to_owned(),
+        Some(known) if known.cost == 0 => "not proven least".to_owned(),
+        known => bound(known.as_ref()),
+    }
 }
 
 fn bound(bound: Option<&LowerBound>) -> String {
@@ -81,6 +88,14 @@ fn detail(scene: &Scene, answer: &Answer) -> String {
     }
 }
 
+/// The codes of the answer's warnings.
+fn warned(answer: &Answer) -> String {
+    let mut codes: Vec<&str> = answer.warnings.iter().map(Warning::code).collect();
+    codes.sort_unstable();
+    codes.dedup();
+    if codes.is_empty() { String::new() } else { format!("warnings: {}", codes.join(", ")) }
+}
+
 fn scene_line(scene: &Scene) -> String {
     let gripper = scene.gripper();
     let fixed = match scene.objects().iter().filter(|object| object.fixed()).count() {
@@ -111,7 +126,8 @@ pub(super) fn description(scene: &Scene, answer: &Answer) -> String {
 /// The lines above the table.
 pub(super) fn block(scene: &Scene, answer: &Answer, view: &View) -> Group {
     let room = view.width() - 2.0 * PADDING;
-    let lines = [(headline(answer), 20.0), (detail(scene, answer), 13.0), (scene_line(scene), 13.0)];
+    let lines =
+        [(headline(answer), 20.0), (detail(scene, answer), 13.0), (warned(answer), 13.0), (scene_line(scene), 13.0)];
     let mut baseline = 12.0;
     let mut group = Group::new().set("class", "headline");
     for (text, size) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {

@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::*;
-use crate::plan::{Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned};
+use crate::plan::check::{Fault, FaultCode};
+use crate::plan::{Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Warning};
 use crate::scene::{
     GripperDraft, ObjectDraft, ObjectIndex, RectangleDraft, SceneDraft, SceneLimits, TableDraft, distance,
 };
@@ -88,6 +89,15 @@ fn characters(text: &str) {
         let name = entity.split(';').next().unwrap();
         assert!(["amp", "lt", "gt", "quot", "apos"].contains(&name), "a bare & in {text:?}");
     }
+}
+
+#[test]
+fn an_answer_that_does_not_pass_its_check_says_so() {
+    let fault =
+        Fault { code: FaultCode::TargetBlocked, step: None, object: Some("o0".into()), detail: "a finger".into() };
+    let graspable = answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: 0.1 }));
+    let drawing = svg(&scene(&["o0"]), &Answer { warnings: vec![Warning::Faulty(fault)], ..graspable });
+    assert!(drawing.contains("does not pass its check") && drawing.contains("warnings: target_blocked"));
 }
 
 #[test]

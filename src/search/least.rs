@@ -13,12 +13,12 @@ use crate::scene::ObjectIndex;
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
     let mut pace = Pace::new(budget);
-    let Reduced { problem, needed } = match reduce(base, target, restriction, &mut pace) {
+    let Reduced { problem, necessary } = match reduce(base, target, restriction, &mut pace) {
         Ok(Some(reduced)) => reduced,
         Ok(None) => return Outcome::Underivable,
         Err(Interrupted) => return Outcome::Interrupted(None),
     };
-    let mut forced = needed;
+    let mut forced = necessary;
     for object in &restriction.required {
         // What the target does not depend on is in no least set.
         let Some(node) = problem.node(*object) else { return Outcome::Underivable };

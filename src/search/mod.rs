@@ -12,7 +12,7 @@ mod hitting;
 mod incumbent;
 mod landmark;
 mod least;
-mod needs;
+mod necessary;
 mod outcome;
 mod pace;
 mod problem;

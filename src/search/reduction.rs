@@ -1,7 +1,7 @@
 //! Before the search: away with all that can't be part of any plan, or need not be.
 
 use super::chain::Chain;
-use super::needs::Needs;
+use super::necessary::Necessary;
 use super::outcome::Restriction;
 use super::pace::Pace;
 use super::problem::{Node, Problem};
@@ -13,7 +13,7 @@ use crate::scene::ObjectIndex;
 pub(super) struct Reduced {
     pub(super) problem: Problem,
     /// What every derivation of the target holds; not all of it is known where there are very many nodes.
-    pub(super) needed: Vec<Node>,
+    pub(super) necessary: Vec<Node>,
 }
 
 /// The problem without rules that hold the target, a held or an underivable object, without rules in whose place another
@@ -38,13 +38,14 @@ pub(super) fn reduce(
     let (all, _) = all.restricted(derivable, pace)?;
     let chain = everything(&all, pace)?;
     let order: Vec<Node> = chain.moved().chain([all.target()]).collect();
-    let Some(needs) = Needs::of(&all, &order, pace)? else {
-        return Ok(Some(Reduced { problem: all, needed: Vec::new() }));
+    let Some(known) = Necessary::of(&all, &order, pace)? else {
+        return Ok(Some(Reduced { problem: all, necessary: Vec::new() }));
     };
-    let (problem, number) = all.restricted(|rule| !needs.is_idle(&all, rule), pace)?;
-    let needed = needs.of_node(all.target()).filter_map(|node| number[node]).filter(|&node| node != problem.target());
-    let needed = needed.collect();
-    Ok(Some(Reduced { problem, needed }))
+    let (problem, number) = all.restricted(|rule| !known.is_idle(&all, rule), pace)?;
+    let necessary =
+        known.of_node(all.target()).filter_map(|node| number[node]).filter(|&node| node != problem.target());
+    let necessary = necessary.collect();
+    Ok(Some(Reduced { problem, necessary }))
 }
 
 /// Everything is moved that can be moved.

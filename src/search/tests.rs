@@ -102,18 +102,18 @@ fn sets_come_in_order_under_restrictions() {
     assert_eq!(solve(&[1], &[3]), Some(vec![2, 3]));
 }
 
-/// The objects that are left besides the target, and those of them that every derivation needs.
+/// The objects that are left besides the target, and those of them that are necessary.
 fn reduced(options: &[Vec<Vec<usize>>]) -> (usize, Vec<usize>) {
     let budget = Budget::unlimited();
     let (base, target) = (base(options), ObjectIndex::new(0));
     let reduced = reduce(&base, target, &Restriction::default(), &mut Pace::new(&budget)).unwrap().expect("derivable");
-    let mut needed: Vec<usize> = reduced.needed.iter().map(|&node| reduced.problem.object(node).get()).collect();
-    needed.sort_unstable();
-    (reduced.problem.movable(), needed)
+    let mut necessary: Vec<usize> = reduced.necessary.iter().map(|&node| reduced.problem.object(node).get()).collect();
+    necessary.sort_unstable();
+    (reduced.problem.movable(), necessary)
 }
 
 #[test]
-fn what_all_ways_share_is_needed() {
+fn what_all_ways_share_is_necessary() {
     // t←{a} or {b}, a←{c}, b←{c}, c free.
     assert_eq!(reduced(&[vec![vec![1], vec![2]], vec![vec![3]], vec![vec![3]], vec![vec![]]]), (3, vec![3]));
 }

@@ -74,7 +74,8 @@ pub enum VerdictWord {
     Graspable,
     /// The plan frees the target.
     Relocate,
-    /// No sequence of pick-and-place can ever free the target.
+    /// No sequence of pick-and-place can ever free the target. Where one of the paper's methods was asked for, only proven
+    /// if `deadlock` is not null.
     Deadlock,
     /// No checked plan was found before the effort limit; not a proof.
     NoSpace,

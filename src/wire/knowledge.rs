@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 use crate::geometry::Arc;
 use crate::paper::PolarHistogram;
 use crate::plan::Known;
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
 /// What is known of every object before any search.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
@@ -51,7 +51,9 @@ pub struct ShadowBody {
     pub intervals: Vec<[f64; 2]>,
 }
 
-/// The paper's polar histogram round an object, in sectors of one degree.
+/// The paper's polar histogram round an object, in sectors of one degree. Magnitudes have no unit: 1 and more where an
+/// obstacle is, larger where it is nearer (Eq. 1 with b = 1, in cells of 5 mm, a by Eq. 8 for each object anew, so that
+/// figures of two objects don't compare).
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct HistogramBody {
     /// H(z) of Eq. 1, summed over the obstacles, for z = 0 … 359 degrees.
@@ -92,6 +94,7 @@ impl HistogramBody {
     }
 }
 
+/// What is left of an arc where it was cut at 0 may be no more than rounding: that is left out.
 fn intervals(arcs: &[Arc]) -> Vec<[f64; 2]> {
-    arcs.iter().map(|arc| [arc.lo, arc.hi]).collect()
+    arcs.iter().filter(|arc| arc.hi - arc.lo >= MIN_FREE_WIDTH).map(|arc| [arc.lo, arc.hi]).collect()
 }

@@ -11,13 +11,13 @@ pub const DEFAULT_RESOLUTION: f64 = 0.005;
 
 /// The most pixels of an image, with those beyond the table's edge that make it a good size for a Fourier transform. At 16
 /// bytes a pixel the largest image takes 64 MB.
-pub const MAX_PIXELS: usize = 4_000_000;
+pub(super) const MAX_PIXELS: usize = 4_000_000;
 
 /// The most pixels along one side: a line is transformed in one go, without a look at the time.
-pub const MAX_SIDE: usize = 1 << 16;
+pub(super) const MAX_SIDE: usize = 1 << 16;
 
-/// An image of a table: square pixels, row by row from the corner of least x and y. It has up to [`MAX_PIXELS`], and
-/// each side up to [`MAX_SIDE`] and no prime factor above 5.
+/// An image of a table: square pixels, row by row from the corner of least x and y. It has up to
+/// 4,000,000 pixels, each side up to 65,536 and no prime factor above 5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Raster {
     /// The corner where it begins, m.
@@ -28,7 +28,7 @@ pub struct Raster {
     rows: usize,
 }
 
-/// An image of the table would have more than [`MAX_PIXELS`] or a side of more than [`MAX_SIDE`], or its resolution is no
+/// An image of the table would have more than 4,000,000 pixels or a side of more than 65,536, or its resolution is no
 /// length.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
@@ -58,7 +58,7 @@ impl Raster {
     }
 
     /// The side of a pixel, m.
-    pub fn resolution(&self) -> f64 {
+    pub(super) fn resolution(&self) -> f64 {
         self.resolution
     }
 

@@ -23,7 +23,7 @@ mod scenes;
 mod tests;
 mod threshold;
 
-pub use grid::{DEFAULT_RESOLUTION, MAX_PIXELS, MAX_SIDE, Raster, TooFine};
+pub use grid::{DEFAULT_RESOLUTION, Raster, TooFine};
 
 use nalgebra::Point2;
 

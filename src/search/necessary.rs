@@ -10,14 +10,14 @@ const MAX_BITS: usize = 1 << 26;
 
 /// Per node all that every derivation of it moves, itself included: the greatest solution of
 /// needs(x) = {x} ∪ ⋂ over options of ⋃ over members of needs(m) (Zhu & Givan 2003; Keyder, Richter & Helmert 2010).
-pub(super) struct Needs {
+pub(super) struct Necessary {
     sets: Bits,
     /// Per rule what its members need together.
     bodies: Bits,
 }
 
-impl Needs {
-    /// The needs of all nodes in `order`, that of some derivation of them all; the target may be the last. `None` where
+impl Necessary {
+    /// What is necessary for all nodes in `order`, that of some derivation of them all; the target may be the last. `None` where
     /// there are too many.
     ///
     /// # Errors
@@ -27,7 +27,7 @@ impl Needs {
         if nodes.saturating_mul(nodes + problem.rules()) > MAX_BITS {
             return Ok(None);
         }
-        let mut needs = Self { sets: Bits::full(nodes, nodes), bodies: Bits::new(problem.rules(), nodes) };
+        let mut known = Self { sets: Bits::full(nodes, nodes), bodies: Bits::new(problem.rules(), nodes) };
         let mut stale = vec![true; nodes];
         let (mut common, mut all) = (vec![0; nodes.div_ceil(64)], vec![0; nodes.div_ceil(64)]);
         while stale.contains(&true) {
@@ -39,17 +39,17 @@ impl Needs {
                 common.fill(u64::MAX);
                 for &rule in problem.rules_of(node) {
                     all.fill(0);
-                    problem.body(rule).iter().for_each(|&member| needs.sets.unite(member as usize, &mut all));
-                    needs.bodies.replace(rule as usize, &all);
+                    problem.body(rule).iter().for_each(|&member| known.sets.unite(member as usize, &mut all));
+                    known.bodies.replace(rule as usize, &all);
                     common.iter_mut().zip(&all).for_each(|(word, other)| *word &= other);
                 }
                 common[node as usize / 64] |= 1 << (node % 64);
-                if needs.sets.replace(node as usize, &common) {
+                if known.sets.replace(node as usize, &common) {
                     problem.condition_of(node).iter().for_each(|&rule| stale[problem.head(rule) as usize] = true);
                 }
             }
         }
-        Ok(Some(needs))
+        Ok(Some(known))
     }
 
     /// What every derivation of the node moves, the node itself included.
