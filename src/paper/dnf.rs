@@ -26,8 +26,10 @@ pub(super) fn conjugate_dnfs(
             budget.check()?;
             for other in dnf {
                 let joined = union(clause, other);
-                members += joined.len();
-                next.insert(joined);
+                let length = joined.len();
+                if next.insert(joined) {
+                    members += length;
+                }
             }
             if members > max_members {
                 return Ok(None);

@@ -58,6 +58,9 @@ pub fn lobs(
         let Some(dnf) = conjugate_dnfs(&d, max_members, budget)? else { return Ok(Conclusion::TooLarge) };
         // 16-22
         for clause in dnf {
+            if number % 64 == 0 {
+                budget.check()?;
+            }
             let o_s_r = find_dup(base, &node.o_s_r, &clause);
             if !o_s_r.is_empty() {
                 number += 1;
@@ -67,9 +70,6 @@ pub fn lobs(
             if members > max_members {
                 return Ok(Conclusion::TooLarge);
             }
-        }
-        if number % 64 == 0 {
-            budget.check()?;
         }
     }
     // 23

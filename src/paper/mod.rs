@@ -6,7 +6,7 @@
 //! | section IV.A, Eq. 1-4, 8-11: TG-MVFH+ | [`PolarHistogram`], [`sector_shadow`] | fingers too wide: graspable objects are called blocked; their outer corners overlooked: now and then a blocked one is called graspable; Eq. 10 undefined or short inside the ring |
 //! | section IV.B, Algorithm 1: LOBS | [`lobs`] | false deadlocks; not optimal; exponential products |
 //! | section V, the baseline: A* | [`forward_astar`] | exponential in the number of objects that can be moved |
-//! | section IV.C, Eq. 7: repositioning | [`reposition`] | releases that the gripper has no room for; no way back from a place that leaves none for a later object |
+//! | section IV.C, Eq. 7: repositioning | [`reposition`] | releases that the gripper has no room for; later grasps blocked at the outer corners of wide fingers; no way back from a place that leaves none for a later object |
 
 mod conclusion;
 mod dnf;

@@ -1,7 +1,7 @@
 //! Nothing leaves unchecked.
 
 use super::answer::{Answer, Statistics, Unplanned, Verdict};
-use super::check::{Fault, FaultCode, Report, check};
+use super::check::{Fault, FaultCode, MAX_FAULTS, Report, check};
 use super::claim::Claim;
 use super::warning::Warning;
 use crate::budget::Budget;
@@ -40,13 +40,14 @@ pub(super) fn confirm(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> R
 }
 
 /// The same for an answer by the paper's methods: a step that does not hold becomes a warning, a proof that does not hold
-/// is refused, for proofs are our own.
+/// is refused, for proofs are our own. `setting` is to blame for a deadlock that can't be confirmed.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if a landmark or a lock does not hold.
 pub(super) fn confirm_unproven(
     scene: &Scene,
     verdict: Verdict,
+    setting: &'static str,
     warnings: &mut Vec<Warning>,
     budget: &Budget<'_>,
 ) -> Result<Verdict, PlanError> {
@@ -60,9 +61,15 @@ pub(super) fn confirm_unproven(
     }
     let mut verdict = proven_part(verdict, &report);
     let seen = |code| report.faults.iter().any(|fault| fault.code == code);
-    if seen(FaultCode::LockUnconfirmed) {
-        verdict = Verdict::Deadlock(None);
-        warnings.push(Warning::UnprovenDeadlock { least: None });
+    // A list of faults that was cut off may have lost those of the proofs.
+    let cut = report.faults.len() >= MAX_FAULTS;
+    match &mut verdict {
+        Verdict::Relocate(plan) if cut => plan.bound = None,
+        Verdict::Deadlock(proof) if cut || seen(FaultCode::LockUnconfirmed) => {
+            *proof = None;
+            warnings.push(Warning::UnprovenDeadlock { enough: None, setting });
+        }
+        _ => {}
     }
     if seen(FaultCode::WrongNeeded)
         && let Verdict::NoSpace(unplanned) | Verdict::TimedOut(unplanned) = &mut verdict
@@ -87,7 +94,8 @@ fn checked(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> (Verdict, Re
 fn proven_part(mut verdict: Verdict, report: &Report) -> Verdict {
     let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
     if let Some(bound) = verdict.bound_mut() {
-        if unconfirmed(FaultCode::BoundUnconfirmed) {
+        // What was not tried in time is not stated, even where the rest proves the bound.
+        if report.interrupted {
             bound.landmarks.clone_from(&report.sound_landmarks);
         }
         bound.cost = report.proven_bound;

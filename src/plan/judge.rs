@@ -3,24 +3,21 @@
 //! The exact search runs twice at the most: on the base that the paper's search had, to judge the search, and on the swept
 //! finger's, to prove the bound or the deadlock. Where time runs out, less is said.
 
-use super::answer::{LowerBound, Verdict};
-use super::confirm::PlanError;
+use super::answer::{Deadlock, LowerBound, Verdict};
 use super::planner::prove_deadlock;
 use super::settings::{GraspModel, SearchMethod, Settings};
 use super::sought::{Sought, seek};
 use super::warning::Warning;
 use crate::budget::Budget;
-use crate::knowledge::{KnowledgeBase, NoBase, relevant, swept_finger_options};
+use crate::knowledge::{KnowledgeBase, relevant, swept_finger_options};
 use crate::paper::tangent_angles;
 use crate::scene::Scene;
+use crate::search::Derivation;
 
 /// The share of the time that is left for this; the rest is the checker's.
 const SHARE: f64 = 0.7;
 
 /// The verdict with what is proven for the swept finger, and warnings for what is wrong with it.
-///
-/// # Errors
-/// [`PlanError::TooDense`] if the swept finger's base would be too large.
 pub(super) fn judge(
     scene: &Scene,
     settings: &Settings,
@@ -28,34 +25,38 @@ pub(super) fn judge(
     sought: Option<(KnowledgeBase, Sought)>,
     warnings: &mut Vec<Warning>,
     budget: &Budget<'_>,
-) -> Result<Verdict, PlanError> {
+) -> Verdict {
     let budget = budget.share(SHARE);
-    if settings.grasp_model == GraspModel::Sector {
+    let sectors = settings.grasp_model == GraspModel::Sector;
+    if sectors {
         count_tangent_angles(scene, sought.as_ref().map(|(base, _)| base), warnings);
     }
-    let Some((base, sought)) = sought else { return Ok(verdict) };
+    let Some((base, sought)) = sought else { return verdict };
     let exact = (settings.search != SearchMethod::Landmarks)
         .then(|| seek(SearchMethod::Landmarks, &base, scene.target(), &budget));
     warnings.extend(exact.as_ref().and_then(|exact| disagreement(&sought, exact)));
-    let opinion = match settings.grasp_model {
-        GraspModel::SweptFinger => opinion(scene, &base, exact.unwrap_or(sought), &budget)?,
-        GraspModel::Sector => match relevant(scene, scene.target(), swept_finger_options, &budget) {
-            Ok(base) => {
-                let sought = seek(SearchMethod::Landmarks, &base, scene.target(), &budget);
-                opinion(scene, &base, sought, &budget)?
-            }
-            Err(NoBase::Interrupted) => Opinion::None,
-            Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
-        },
+    let opinion = if sectors {
+        let base = relevant(scene, scene.target(), swept_finger_options, &budget);
+        base.map_or(Opinion::None, |base| {
+            let sought = seek(SearchMethod::Landmarks, &base, scene.target(), &budget);
+            opinion(scene, &base, sought, &budget)
+        })
+    } else {
+        opinion(scene, &base, exact.unwrap_or(sought), &budget)
     };
-    if let (Verdict::Relocate(plan), Opinion::Bound { least: Some(least), .. }) = (&verdict, &opinion)
-        && settings.grasp_model == GraspModel::Sector
-        && *least < plan.cost()
+    if let (Verdict::Relocate(plan), Opinion::Bound { known, .. }) = (&verdict, &opinion)
+        && sectors
+        && known.order.len() < plan.cost()
     {
-        warnings.push(Warning::FewerSuffice { least: *least });
+        warnings.push(Warning::FewerSuffice { enough: known.order.len() });
     }
-    apply(&mut verdict, opinion, warnings);
-    Ok(verdict)
+    apply(&mut verdict, opinion, unproven_by(settings), warnings);
+    verdict
+}
+
+/// The setting to which a deadlock that is none is due.
+pub(super) fn unproven_by(settings: &Settings) -> &'static str {
+    if settings.grasp_model == GraspModel::Sector { "grasp_model" } else { "search" }
 }
 
 /// Of the grasps that knowledge was asked for.
@@ -67,13 +68,14 @@ fn count_tangent_angles(scene: &Scene, base: Option<&KnowledgeBase>, warnings: &
     }
 }
 
-/// What the exact search has against the paper's, on one base.
+/// What the exact search has against the paper's, on one base. It need not have come to its end: a derivation is enough.
 fn disagreement(sought: &Sought, exact: &Sought) -> Option<Warning> {
-    match (sought, exact) {
-        (Sought::Nothing, Sought::Least(known)) => Some(Warning::FalseDeadlock { least: known.derivation.order.len() }),
-        (Sought::Sequence(sequence), Sought::Least(known)) => {
-            let (found, least) = (sequence.order.len(), known.derivation.order.len());
-            (found > least).then_some(Warning::NotOptimal { found, least })
+    let (Sought::Least(known) | Sought::Best(known)) = exact else { return None };
+    let enough = known.derivation.order.len();
+    match sought {
+        Sought::Nothing => Some(Warning::FalseDeadlock { enough }),
+        Sought::Sequence(sequence) if sequence.order.len() > enough => {
+            Some(Warning::NotOptimal { found: sequence.order.len(), enough })
         }
         _ => None,
     }
@@ -81,34 +83,36 @@ fn disagreement(sought: &Sought, exact: &Sought) -> Option<Warning> {
 
 /// What is known of the target by the swept finger.
 enum Opinion {
-    /// No plan has fewer relocations than the bound; `least` if so many are enough.
-    Bound { bound: LowerBound, least: Option<usize> },
+    /// No plan has fewer relocations than the bound, and the derivation frees the target, places apart.
+    Bound { bound: LowerBound, known: Derivation },
     /// Nothing frees it.
-    Deadlock(super::answer::Deadlock),
-    /// Time ran out.
+    Deadlock(Deadlock),
+    /// Time ran out, or memory.
     None,
 }
 
-fn opinion(scene: &Scene, base: &KnowledgeBase, sought: Sought, budget: &Budget<'_>) -> Result<Opinion, PlanError> {
-    Ok(match sought {
-        Sought::Least(known) => Opinion::Bound { bound: (&known).into(), least: Some(known.derivation.order.len()) },
-        Sought::Best(known) => Opinion::Bound { bound: (&known).into(), least: None },
-        Sought::Nothing => match prove_deadlock(scene, base, budget) {
-            Ok(deadlock) => Opinion::Deadlock(deadlock),
-            Err(NoBase::Interrupted) => Opinion::None,
-            Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
-        },
+fn opinion(scene: &Scene, base: &KnowledgeBase, sought: Sought, budget: &Budget<'_>) -> Opinion {
+    match sought {
+        Sought::Least(known) | Sought::Best(known) => {
+            Opinion::Bound { bound: (&known).into(), known: known.derivation }
+        }
+        Sought::Nothing => prove_deadlock(scene, base, budget).map_or(Opinion::None, Opinion::Deadlock),
         Sought::Sequence(_) | Sought::TooLate | Sought::TooLarge => Opinion::None,
-    })
+    }
 }
 
-fn apply(verdict: &mut Verdict, opinion: Opinion, warnings: &mut Vec<Warning>) {
+fn apply(verdict: &mut Verdict, opinion: Opinion, setting: &'static str, warnings: &mut Vec<Warning>) {
     match (verdict, opinion) {
         (Verdict::Deadlock(proof), Opinion::Deadlock(deadlock)) => *proof = Some(deadlock),
-        (Verdict::Deadlock(_), Opinion::Bound { least, .. }) => warnings.push(Warning::UnprovenDeadlock { least }),
-        (Verdict::Deadlock(_), Opinion::None) => warnings.push(Warning::UnprovenDeadlock { least: None }),
+        (Verdict::Deadlock(_), Opinion::Bound { known, .. }) => {
+            warnings.push(Warning::UnprovenDeadlock { enough: Some(known.order.len()), setting });
+        }
+        (Verdict::Deadlock(_), Opinion::None) => warnings.push(Warning::UnprovenDeadlock { enough: None, setting }),
         (Verdict::Relocate(plan), Opinion::Bound { bound, .. }) => plan.bound = Some(bound),
-        (Verdict::NoSpace(rest) | Verdict::TimedOut(rest), Opinion::Bound { bound, .. }) => rest.bound = Some(bound),
+        (Verdict::NoSpace(rest) | Verdict::TimedOut(rest), Opinion::Bound { bound, known }) => {
+            rest.bound = Some(bound);
+            rest.needed.get_or_insert(known.order);
+        }
         _ => {}
     }
 }

@@ -6,7 +6,7 @@ use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, V
 use super::check::{Fault, FaultCode, Report};
 use super::confirm::{PlanError, confirm, confirm_unproven};
 use super::couple::{Question, arrange_least, arrange_one};
-use super::judge::judge;
+use super::judge::{judge, unproven_by};
 use super::settings::{GraspModel, PlacementMethod, Settings};
 use super::sought::{Sought, seek};
 use super::warning::Warning;
@@ -41,8 +41,8 @@ pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<A
     let verdict = if settings.proven() {
         confirm(scene, verdict, budget)?
     } else {
-        let judged = judge(scene, settings, verdict, sought, &mut warnings, budget)?;
-        confirm_unproven(scene, judged, &mut warnings, budget)?
+        let judged = judge(scene, settings, verdict, sought, &mut warnings, budget);
+        confirm_unproven(scene, judged, unproven_by(settings), &mut warnings, budget)?
     };
     statistics.check = budget.elapsed().saturating_sub(before);
     Ok(Answer { verdict, warnings, statistics })

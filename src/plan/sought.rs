@@ -8,8 +8,8 @@ use crate::paper::{Conclusion, forward_astar, lobs};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Derivation, LeastSet, Outcome, Restriction, least};
 
-/// The most objects in OPEN, or in one product of premises, of LOBS: some 50 MB.
-const MAX_LOBS_MEMBERS: usize = 5_000_000;
+/// The most objects in OPEN, or in one product of premises, of LOBS: some 20 MB, and some 20 ms to give them back.
+const MAX_LOBS_MEMBERS: usize = 2_000_000;
 /// The most states of A*: some 50 MB for a scene of 64 objects.
 const MAX_ASTAR_STATES: usize = 500_000;
 /// The most words of all of A*'s sets together, which matters where there are many objects.

@@ -14,27 +14,29 @@ pub enum Warning {
     },
     /// The search found no sequence, but the exact search on the same base did.
     FalseDeadlock {
-        /// The least number of relocations, places apart.
-        least: usize,
+        /// So many relocations are enough, places apart.
+        enough: usize,
     },
     /// The search's sequence is longer than the exact search's on the same base.
     NotOptimal {
         /// The length of the search's.
         found: usize,
-        /// The least number of relocations, places apart.
-        least: usize,
+        /// So many relocations are enough, places apart.
+        enough: usize,
     },
     /// The search reached its limit of memory.
     SearchTooLarge,
     /// The plan is longer than the swept finger needs.
     FewerSuffice {
-        /// The least number of relocations by the swept finger, places apart.
-        least: usize,
+        /// By the swept finger so many are enough, places apart.
+        enough: usize,
     },
-    /// The deadlock is not proven for the swept finger: refuted, where the least number of relocations is known.
+    /// The deadlock is not proven for the swept finger: refuted, where it is known how many relocations are enough.
     UnprovenDeadlock {
-        /// The least number of relocations by the swept finger, places apart.
-        least: Option<usize>,
+        /// By the swept finger so many relocations are enough, places apart.
+        enough: Option<usize>,
+        /// The setting that makes the difference.
+        setting: &'static str,
     },
     /// The checker, which judges by the swept finger alone, refuses a part of the plan.
     Faulty(Fault),
@@ -47,6 +49,8 @@ pub enum Cause<'a> {
     Setting(&'static str),
     /// The object of this id.
     Object(&'a str),
+    /// The request as a whole.
+    Request,
 }
 
 impl Warning {
@@ -66,12 +70,11 @@ impl Warning {
     /// Where it comes from.
     pub fn cause(&self) -> Cause<'_> {
         match self {
-            Self::TangentAngle { .. } | Self::FewerSuffice { .. } | Self::UnprovenDeadlock { .. } => {
-                Cause::Setting("grasp_model")
-            }
+            Self::TangentAngle { .. } | Self::FewerSuffice { .. } => Cause::Setting("grasp_model"),
+            Self::UnprovenDeadlock { setting, .. } => Cause::Setting(setting),
             Self::FalseDeadlock { .. } | Self::NotOptimal { .. } | Self::SearchTooLarge => Cause::Setting("search"),
             Self::Faulty(Fault { object: Some(id), .. }) => Cause::Object(id),
-            Self::Faulty(_) => Cause::Setting("placement"),
+            Self::Faulty(_) => Cause::Request,
         }
     }
 }
@@ -84,22 +87,22 @@ impl fmt::Display for Warning {
                 "Eq. 10 is undefined or too small for {pairs} of an object and an obstacle inside the ring of its fingers: the tangent angle is taken",
                 pairs = counted(*pairs, "pair")
             ),
-            Self::FalseDeadlock { least } => {
+            Self::FalseDeadlock { enough } => {
                 write!(
                     f,
                     "no sequence found, but by the same knowledge one of {} frees the target",
-                    relocations(*least)
+                    relocations(*enough)
                 )
             }
-            Self::NotOptimal { found, least } => {
-                write!(f, "{} found, but by the same knowledge {least} suffice", relocations(*found))
+            Self::NotOptimal { found, enough } => {
+                write!(f, "{} found, but by the same knowledge {enough} suffice", relocations(*found))
             }
             Self::SearchTooLarge => write!(f, "the search reached its limit of memory"),
-            Self::FewerSuffice { least } => write!(f, "by the swept finger {least} suffice, places apart"),
-            Self::UnprovenDeadlock { least: Some(least) } => {
-                write!(f, "no deadlock for the swept finger: {} suffice, places apart", relocations(*least))
+            Self::FewerSuffice { enough } => write!(f, "by the swept finger {enough} suffice, places apart"),
+            Self::UnprovenDeadlock { enough: Some(enough), .. } => {
+                write!(f, "no deadlock for the swept finger: {} suffice, places apart", relocations(*enough))
             }
-            Self::UnprovenDeadlock { least: None } => {
+            Self::UnprovenDeadlock { enough: None, .. } => {
                 write!(f, "whether this is a deadlock for the swept finger too could not be told in time")
             }
             Self::Faulty(Fault { step: Some(step), detail, .. }) => write!(f, "step {}: {detail}", step + 1),
@@ -132,7 +135,8 @@ mod tests {
         let faulty = Warning::Faulty(fault);
         assert_eq!((faulty.code(), faulty.cause()), ("release_blocked", Cause::Object("plate")));
         assert_eq!(faulty.to_string(), "step 1: a finger");
-        let texts = [1, 2].map(|least| Warning::UnprovenDeadlock { least: Some(least) }.to_string());
+        let texts =
+            [1, 2].map(|count| Warning::UnprovenDeadlock { enough: Some(count), setting: "search" }.to_string());
         assert!(texts[0].contains("1 relocation suffice") && texts[1].contains("2 relocations suffice"), "{texts:?}");
     }
 }

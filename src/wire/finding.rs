@@ -18,6 +18,7 @@ pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> ErrorItem {
 pub(super) fn warning(scene: &Scene, warning: &Warning) -> ErrorItem {
     let pointer = match warning.cause() {
         Cause::Setting(name) => format!("/settings/{name}"),
+        Cause::Request => String::new(),
         Cause::Object(id) => {
             let at = scene.objects().iter().position(|object| object.id() == id);
             at.map_or_else(|| "/objects".to_owned(), |at| format!("/objects/{at}"))

@@ -79,7 +79,7 @@ fn lobs_moves_more_than_is_needed_and_is_told_so() {
     let scene = fixture("not_optimal");
     let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
     assert_eq!(cost(&answer), 5);
-    assert_eq!(answer.warnings, [Warning::NotOptimal { found: 5, least: 3 }]);
+    assert_eq!(answer.warnings, [Warning::NotOptimal { found: 5, enough: 3 }]);
     assert_eq!(answer.optimal(), Some(false));
     let exact = exact(&scene);
     assert_eq!((cost(&exact), exact.optimal()), (3, Some(true)));
@@ -91,7 +91,10 @@ fn a_false_deadlock_of_lobs_is_served_without_proof_and_with_a_warning() {
     let scene = fixture("false_deadlock");
     let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
     assert_eq!(answer.verdict, Verdict::Deadlock(None));
-    assert_eq!(answer.warnings, [Warning::FalseDeadlock { least: 5 }, Warning::UnprovenDeadlock { least: Some(5) }]);
+    assert_eq!(
+        answer.warnings,
+        [Warning::FalseDeadlock { enough: 5 }, Warning::UnprovenDeadlock { enough: Some(5), setting: "search" }]
+    );
     let exact = exact(&scene);
     assert_eq!((cost(&exact), exact.optimal()), (5, Some(true)));
 }
@@ -202,8 +205,9 @@ fn what_sectors_leave_free_the_fingers_do_too_but_not_the_other_way_round() {
             match (&sector.verdict, &exact.verdict) {
                 (Verdict::Deadlock(None), Verdict::Relocate(plan)) => {
                     unproven += 1;
-                    let least = plan.bound.as_ref().map(|bound| bound.cost);
-                    assert_eq!(sector.warnings, [Warning::UnprovenDeadlock { least }]);
+                    let enough = plan.bound.as_ref().map(|bound| bound.cost);
+                    let setting = "grasp_model";
+                    assert_eq!(sector.warnings, [Warning::UnprovenDeadlock { enough, setting }]);
                 }
                 (Verdict::Deadlock(Some(lock)), Verdict::Deadlock(Some(ours))) => {
                     proven += 1;
@@ -213,7 +217,7 @@ fn what_sectors_leave_free_the_fingers_do_too_but_not_the_other_way_round() {
                     plans += 1;
                     assert_eq!(plan.bound, ours.bound);
                     let least = ours.bound.as_ref().map_or(0, |bound| bound.cost);
-                    let fewer = (plan.cost() > least).then_some(Warning::FewerSuffice { least });
+                    let fewer = (plan.cost() > least).then_some(Warning::FewerSuffice { enough: least });
                     assert_eq!(sector.warnings, fewer.into_iter().collect::<Vec<_>>());
                 }
                 (_, Verdict::Deadlock(_)) => panic!("{sector:?}"),

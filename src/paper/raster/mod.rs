@@ -11,7 +11,9 @@
 //! counting pixels: an object is put onto a pixel's middle, so no rounding to pixels takes part, and nothing is ever put
 //! onto something else. Only the counts of Eq. 7 are as coarse as the pixels.
 //!
-//! The paper's stated gap stays: whether the gripper can be opened at the new place is not asked.
+//! The paper's stated gap stays: whether the gripper can be opened at the new place is not asked. Nor is r_g quite what the
+//! fingers reach: their outer corners are farther out, so a later grasp may be blocked, wide fingers that open a little
+//! above all.
 
 mod blot;
 mod convolution;
