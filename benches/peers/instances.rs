@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use singulate::budget::Budget;
-use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::experiments::{Arrangement, PAPERS_CASES, Recipe, generate};
 use singulate::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
 use singulate::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
 use singulate::search::{Outcome, Restriction, least};
@@ -21,9 +21,6 @@ pub(crate) struct Instance {
     pub(crate) knowledge: Option<Duration>,
 }
 
-/// The paper's six columns: how many objects on a table of which width and height, m.
-const PAPER: [(usize, (f64, f64)); 6] =
-    [(16, (1.2, 0.7)), (18, (1.2, 0.7)), (20, (1.2, 0.7)), (25, (1.4, 0.7)), (37, (1.4, 1.04)), (50, (1.4, 1.4))];
 /// The widest gaps of the pressed clusters, m. Between the narrowest, where nearly all is locked, and the widest, where
 /// little is in the way, lie the long derivations.
 const GAPS: [f64; 6] = [0.018, 0.02, 0.022, 0.024, 0.026, 0.028];
@@ -42,10 +39,11 @@ const DEEP: [(usize, f64, usize); 9] = [
 /// The same for mixed radii and the paper's wider fingers.
 const MIXED_GAPS: [f64; 4] = [0.035, 0.04, 0.045, 0.05];
 
-/// The paper's scenes, its columns in turn: the target is the object with the largest least option.
+/// The paper's scenes, its columns in turn: the target is the object with the largest least option by the swept finger.
 pub(crate) fn paper(number: usize) -> Instance {
-    let (objects, table) = PAPER[number % PAPER.len()];
-    let seed = number / PAPER.len();
+    let case = &PAPERS_CASES[number % PAPERS_CASES.len()];
+    let (objects, table) = (case.objects, case.table);
+    let seed = number / PAPERS_CASES.len();
     let scene = scene(&Recipe { objects, table, ..Recipe::default() }, seed);
     let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("small");
     let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();

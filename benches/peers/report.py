@@ -105,30 +105,42 @@ def table(kind: str, results: list[Result]) -> str:
 
 
 def faults(results: list[Result], full: bool) -> list[str]:
-    """Whatever must not be."""
+    """Whatever must not be. A few instances, the deepest first, are no measure of a class: they have to agree and to be won
+    in the median; all other bounds are for a full run."""
     found = []
     for kind, of_class in by_class(results).items():
         for r in of_class:
-            where = f"{kind}, {r.name}"
             answers = {timing.optimum for timing in [r.ours, *r.peers.values()] if timing}
             if len(answers) > 1:
-                found.append(f"{where}: the optima differ: {r.ours}, {r.peers}")
-            if kind in (SYNTHETIC, CROWD):
-                continue
-            ratio = r.ratio()
-            if r.ours is None:
-                found.append(f"{where}: not solved by ours")
-            elif ratio is not None and ratio <= 1:
-                found.append(f"{where}: the fastest peer takes {ratio:.2f} times as long as ours")
-            if r.our_seconds > SEARCH_BOUNDS.get(kind, float("inf")):
-                found.append(f"{where}: the search takes {1e3 * r.our_seconds:.1f} ms")
-        ratios = [ratio for r in of_class if (ratio := r.ratio()) is not None]
-        if kind not in (SYNTHETIC, CROWD) and ratios and statistics.median(ratios) < LEAST_MEDIAN_RATIO:
-            found.append(f"{kind}: median ratio {statistics.median(ratios):.1f}, below {LEAST_MEDIAN_RATIO:g}")
+                found.append(f"{kind}, {r.name}: the optima differ: {r.ours}, {r.peers}")
+        if kind not in (SYNTHETIC, CROWD):
+            found += slow_class(kind, of_class, full)
+    return found + missed(results) if full else found
+
+
+def slow_class(kind: str, results: list[Result], full: bool) -> list[str]:
+    """What a scene-born class has against our search: unsolved instances, and a median ratio below what is wanted."""
+    found = [f"{kind}, {r.name}: not solved by ours" for r in results if r.ours is None]
+    ratios = [ratio for r in results if (ratio := r.ratio()) is not None]
+    if ratios:
+        median = statistics.median(ratios)
+        if median <= 1 or (full and median < LEAST_MEDIAN_RATIO):
+            found.append(f"{kind}: median ratio {median:.2f}")
+    return found
+
+
+def missed(results: list[Result]) -> list[str]:
+    """The bounds of single instances, and how many there must be."""
+    found = []
     for r in results:
+        where, ratio = f"{r.kind}, {r.name}", r.ratio()
+        if r.kind not in (SYNTHETIC, CROWD) and ratio is not None and ratio <= 1:
+            found.append(f"{where}: the fastest peer takes {ratio:.2f} times as long as ours")
+        if r.our_seconds > SEARCH_BOUNDS.get(r.kind, float("inf")):
+            found.append(f"{where}: the search takes {1e3 * r.our_seconds:.1f} ms")
         if r.kind == CROWD and r.our_seconds + (r.knowledge_seconds or 0.0) > CROWD_BOUND:
-            found.append(f"{r.kind}, {r.name}: knowledge and deadlock take more than {1e3 * CROWD_BOUND:g} ms")
+            found.append(f"{where}: knowledge and deadlock take more than {1e3 * CROWD_BOUND:g} ms")
     asked = sum(r.kind != CROWD for r in results)
-    if full and asked < LEAST_INSTANCES:
+    if asked < LEAST_INSTANCES:
         found.append(f"only {asked} instances")
     return found

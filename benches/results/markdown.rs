@@ -42,24 +42,31 @@ pub(crate) fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
 
 /// Three digits, or as many as stand before the point; from 1,000 on with commas. No more than four behind the point.
 pub(crate) fn digits(value: f64) -> String {
-    if value >= 999.5 {
-        let whole = format!("{value:.0}");
-        let (first, last) = whole.split_at(whole.len() - 3);
-        return format!("{first},{last}");
-    }
     let places = match value {
-        v if v >= 100.0 => 0,
-        v if v >= 10.0 => 1,
-        v if v >= 1.0 => 2,
-        v if v >= 0.1 => 3,
+        v if v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        v if v >= 0.9995 => 2,
+        v if v >= 0.09995 => 3,
         _ => 4,
     };
-    format!("{value:.places$}")
+    let text = format!("{value:.places$}");
+    if places > 0 {
+        return text;
+    }
+    let digit = |(at, digit): (usize, char)| {
+        let comma = at > 0 && (text.len() - at).is_multiple_of(3);
+        comma.then_some(',').into_iter().chain([digit])
+    };
+    text.chars().enumerate().flat_map(digit).collect()
 }
 
-/// Seconds, in milliseconds.
-pub(crate) fn ms(seconds: f64) -> String {
-    digits(seconds * 1e3)
+/// Seconds in the unit that suits them.
+pub(crate) fn time(seconds: f64) -> String {
+    match seconds {
+        s if s >= 0.09995 => format!("{} s", digits(s)),
+        s if s >= 0.9995e-3 => format!("{} ms", digits(s * 1e3)),
+        s => format!("{} µs", digits(s * 1e6)),
+    }
 }
 
 /// A rate from 0 to 1.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
-use crate::markdown::wrapped;
+use crate::markdown::{self, wrapped};
 use crate::peers::Peers;
 use crate::tables::{Table1, Table2};
 use crate::{peers_page, plots, table_plots, tables_page};
@@ -13,22 +13,18 @@ use crate::{peers_page, plots, table_plots, tables_page};
 const HEAD: &str = "# Results\n\n\
     `cargo bench --bench results` writes this page and its pictures from the files in [`results/`](results/): every \
     figure here is one of theirs. They were measured on a shared machine with 2 cores; what is compared with each other \
-    was measured in the same run, but for the paper's own figures.\n\n\
-    | file | written by |\n| --- | --- |\n\
-    | `table1.json` | `singulate experiment table1 --format json` |\n\
-    | `table2.json` | `singulate experiment table2 --format json` |\n\
-    | `peers.json` | `benches/peers/run --out docs/results/peers.json` |\n";
+    was measured in the same run, but for the paper's own figures.\n\n";
 
 /// Every file that is made, with its path below the crate's root and its text.
 pub(crate) fn files() -> Vec<(&'static str, String)> {
     let (table1, table2, peers): (Table1, Table2, Peers) =
         (read("table1.json"), read("table2.json"), read("peers.json"));
     let sections = [
-        HEAD.to_owned(),
+        HEAD.to_owned() + &written_by(&table1, &table2),
         peers_page::section(&peers),
         tables_page::table1(&table1),
         tables_page::table2(&table2),
-        tables_page::apart(&table1),
+        tables_page::apart(&table1, &table2),
     ];
     let drawn = "finite figures";
     vec![
@@ -37,6 +33,17 @@ pub(crate) fn files() -> Vec<(&'static str, String)> {
         ("docs/results/deadlocks.svg", table_plots::deadlocks(&table1).expect(drawn)),
         ("docs/results/times.svg", table_plots::times(&table1).expect(drawn)),
     ]
+}
+
+/// The files, each with the command that writes it.
+fn written_by(table1: &Table1, table2: &Table2) -> String {
+    let code = |text: &str| format!("`{text}`");
+    markdown::table(&[
+        markdown::row(["file", "written by"]),
+        markdown::row(["`table1.json`", &code(&table1.command())]),
+        markdown::row(["`table2.json`", &code(&table2.command())]),
+        markdown::row(["`peers.json`", "`benches/peers/run --out docs/results/peers.json`"]),
+    ])
 }
 
 fn read<T: DeserializeOwned>(name: &str) -> T {

@@ -52,6 +52,11 @@ impl Peers {
         grouped(asked, |instance| &instance.class)
     }
 
+    /// The classes that come from scenes, where a target is set.
+    pub(crate) fn scene_born(&self) -> Vec<(&str, Vec<&Instance>)> {
+        self.classes().into_iter().filter(|(class, _)| *class != SYNTHETIC).collect()
+    }
+
     /// The families of the synthetic class.
     pub(crate) fn families(&self) -> Vec<(&str, Vec<&Instance>)> {
         let synthetic = self.instances.iter().filter(|instance| instance.class == SYNTHETIC);
@@ -70,7 +75,7 @@ impl Peers {
 }
 
 /// The class without scenes.
-pub(crate) const SYNTHETIC: &str = "synthetic";
+const SYNTHETIC: &str = "synthetic";
 const CROWD: &str = "crowd-10000";
 
 fn grouped<'a>(
@@ -103,6 +108,11 @@ impl Instance {
         self.ours.unwrap_or(f64::INFINITY)
     }
 
+    /// The same with the way from the scene to the base, where there is a scene.
+    pub(crate) fn with_knowledge(&self) -> f64 {
+        self.ours() + self.knowledge.unwrap_or_default()
+    }
+
     /// How many times as long as ours the fastest peer takes; `None` where neither finished.
     pub(crate) fn ratio(&self) -> Option<f64> {
         self.over_ours(Self::peer)
@@ -123,15 +133,15 @@ impl Instance {
     }
 }
 
-/// The middle one, or the mean of the middle two.
-pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
+/// The middle one, or the mean of the middle two; `None` where there is none.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_unstable_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { f64::midpoint(sorted[middle - 1], sorted[middle]) }
+    let (low, high) = (sorted.get((sorted.len().max(1) - 1) / 2)?, sorted.get(sorted.len() / 2)?);
+    Some(if low == high { *low } else { f64::midpoint(*low, *high) })
 }
 
-/// The greatest.
-pub(crate) fn worst(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(f64::NEG_INFINITY, f64::max)
+/// The greatest; `None` where there is none.
+pub(crate) fn worst(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.max_by(f64::total_cmp)
 }

@@ -14,6 +14,9 @@ pub(crate) const FONT: &str = "sans-serif";
 /// Told apart by people who see few colours too (Okabe & Ito): ours, then the peers in order.
 const COLOURS: [RGBColor; 4] =
     [RGBColor(213, 94, 0), RGBColor(0, 114, 178), RGBColor(0, 158, 115), RGBColor(110, 110, 110)];
+/// A ring in the legend stands for every colour.
+const UNFINISHED: RGBColor = RGBColor(110, 110, 110);
+const SEPARATOR: RGBColor = RGBColor(225, 225, 225);
 /// The axis of times, s.
 const FASTEST: f64 = 5e-7;
 const SLOWEST: f64 = 60.0;
@@ -37,10 +40,13 @@ pub(crate) fn peers(peers: &Peers) -> Outcome<String> {
             .disable_x_mesh()
             .disable_x_axis()
             .light_line_style(WHITE)
-            .y_desc("from the base to the proven optimum")
+            .y_desc("time from base to proven optimum")
             .y_label_formatter(&|seconds| duration(*seconds))
             .label_style((FONT, 14))
             .draw()?;
+        let between =
+            (1..classes.len()).map(|at| PathElement::new([(float(at), FASTEST), (float(at), SLOWEST)], SEPARATOR));
+        chart.draw_series(between)?;
         for (at, (name, instances)) in classes.iter().enumerate() {
             let ours = |instance: &Instance| instance.ours();
             chart.draw_series(strip(at, 0, instances, peers.time_limit_seconds, ours))?;
@@ -55,7 +61,7 @@ pub(crate) fn peers(peers: &Peers) -> Outcome<String> {
         for (at, (name, colour)) in names.zip(COLOURS).enumerate() {
             key(&root, at, (5, 120), name, (colour, true))?;
         }
-        key(&root, 4, (5, 120), "not finished within the limit", (BLACK, false))?;
+        key(&root, 4, (5, 120), "not finished within the limit", (UNFINISHED, false))?;
         root.present()?;
     }
     Ok(text)
@@ -77,7 +83,7 @@ fn strip(
         let seconds = time(instance);
         let colour = COLOURS[solver];
         let style = if seconds.is_finite() { colour.mix(0.7).filled() } else { colour.stroke_width(1) };
-        Circle::new((place(at), seconds.min(limit).max(FASTEST)), 2, style)
+        Circle::new((place(at), seconds.min(limit).max(FASTEST)), 3, style)
     };
     instances.iter().enumerate().map(mark).collect()
 }

@@ -1,5 +1,6 @@
 //! The pictures of Table I.
 
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::plots::{FONT, Outcome, duration, float, key};
@@ -10,20 +11,35 @@ const BLUE: RGBColor = RGBColor(0, 114, 178);
 const GREEN: RGBColor = RGBColor(0, 158, 115);
 const ORANGE: RGBColor = RGBColor(213, 94, 0);
 const GREY: RGBColor = RGBColor(110, 110, 110);
+const CAPPED: RGBColor = RGBColor(0, 0, 0);
 /// The axis of times, s.
 const TIMES: core::ops::Range<f64> = 3e-7..120.0;
 
-/// A name, a colour, filled or a ring, and the figure of a column.
-type Line = (&'static str, RGBColor, bool, fn(&Column1) -> Option<f64>);
+/// A name, a colour, filled or a ring, and of a column the figure and whether it holds searches that did not end.
+type Line = (&'static str, RGBColor, bool, fn(&Column1) -> (Option<f64>, bool));
 
 const LINES: [Line; 6] = [
-    ("the paper's Base", GREY, false, |column| Some(column.printed("forward_astar").search_s_mean)),
-    ("the paper's LOBS", BLUE, false, |column| Some(column.printed("lobs").search_s_mean)),
-    ("our Base", GREY, true, |column| column.method("sector", "forward_astar").search_s_mean),
-    ("our LOBS", BLUE, true, |column| column.method("sector", "lobs").search_s_mean),
-    ("ours", ORANGE, true, |column| column.method("sector", "landmarks").search_s_mean),
-    ("whole plan", GREEN, true, |column| column.plans.plan_s_mean),
+    ("the paper's Base", GREY, false, |column| printed(column, "forward_astar")),
+    ("the paper's LOBS", BLUE, false, |column| printed(column, "lobs")),
+    ("our Base", GREY, true, |column| measured(column, "forward_astar")),
+    ("our LOBS", BLUE, true, |column| measured(column, "lobs")),
+    ("ours, sector", ORANGE, true, |column| measured(column, "landmarks")),
+    ("whole plan, swept finger", GREEN, true, |column| (column.plans.plan_s_mean, column.plans.timed_out > 0)),
 ];
+
+/// Of the paper's searches, those that are no success did not end.
+fn printed(column: &Column1, method: &str) -> (Option<f64>, bool) {
+    let printed = column.printed(method);
+    (Some(printed.search_s_mean), printed.success_rate < 1.0)
+}
+
+fn measured(column: &Column1, method: &str) -> (Option<f64>, bool) {
+    let method = column.method("sector", method);
+    (method.search_s_mean, method.capped() > 0)
+}
+
+/// The columns of the paper's Case I, on one table; those after it are Case II, of one density.
+const CASE_1: usize = 3;
 
 /// Mean search time against N, and that of a whole plan by the swept finger.
 pub(crate) fn times(table: &Table1) -> Outcome<String> {
@@ -33,8 +49,8 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
         root.fill(&WHITE)?;
         let mut chart = ChartBuilder::on(&root)
             .margin(10)
-            .margin_top(55)
-            .x_label_area_size(30)
+            .margin_top(80)
+            .x_label_area_size(50)
             .y_label_area_size(70)
             .build_cartesian_2d(0.0..float(table.columns.len()), TIMES.log_scale())?;
         chart
@@ -47,12 +63,21 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
             .label_style((FONT, 14))
             .draw()?;
         for (_, colour, filled, figure) in LINES {
-            let figures = table.columns.iter().enumerate().filter_map(|(at, column)| Some((at, figure(column)?)));
-            let points: Vec<(f64, f64)> = figures.map(|(at, seconds)| (float(at) + 0.5, seconds)).collect();
-            chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(1)))?;
+            let mark = |(at, column)| {
+                let (seconds, capped) = figure(column);
+                Some((at, (float(at) + 0.5, seconds?), capped))
+            };
+            let marks: Vec<_> = table.columns.iter().enumerate().filter_map(mark).collect();
+            for case in [0..CASE_1, CASE_1..table.columns.len()] {
+                let points = marks.iter().filter(|(at, ..)| case.contains(at)).map(|(_, point, _)| *point);
+                chart.draw_series(LineSeries::new(points, colour.stroke_width(1)))?;
+            }
             let style = if filled { colour.filled() } else { colour.stroke_width(2) };
-            chart.draw_series(points.iter().map(|point| Circle::new(*point, 4, style)))?;
+            chart.draw_series(marks.iter().map(|(_, point, _)| Circle::new(*point, 4, style)))?;
+            let capped = marks.iter().filter(|(.., capped)| *capped);
+            chart.draw_series(capped.map(|(_, point, _)| TriangleMarker::new(*point, 9, CAPPED.stroke_width(1))))?;
         }
+        caption(&root, &chart.backend_coord(&(float(table.columns.len()) / 2.0, TIMES.start)))?;
         for (at, column) in table.columns.iter().enumerate() {
             let below = chart.backend_coord(&(float(at) + 0.5, TIMES.start));
             root.draw(&Text::new(format!("N={}", column.objects), (below.0 - 15, below.1 + 8), (FONT, 15)))?;
@@ -60,9 +85,18 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
         for (at, (name, colour, filled, _)) in LINES.into_iter().enumerate() {
             key(&root, at, (3, 200), name, (colour, filled))?;
         }
+        root.draw(&(EmptyElement::at((90, 61)) + TriangleMarker::new((0, 0), 6, CAPPED.stroke_width(1))))?;
+        root.draw(&Text::new("holds searches that did not end, counted as the limit", (100, 54), (FONT, 15)))?;
         root.present()?;
     }
     Ok(text)
+}
+
+/// What the columns are, below their names.
+fn caption(root: &DrawingArea<SVGBackend<'_>, Shift>, middle: &(i32, i32)) -> Outcome<()> {
+    let text = "objects N: on one table (16 to 20), at one density (25 to 50)";
+    root.draw(&Text::new(text, (middle.0 - 190, middle.1 + 28), (FONT, 15)))?;
+    Ok(())
 }
 
 /// Rates with their intervals: the paper's, ours by the sector model, ours by the swept finger.
@@ -83,7 +117,7 @@ pub(crate) fn deadlocks(table: &Table1) -> Outcome<String> {
             .disable_x_axis()
             .light_line_style(WHITE)
             .y_labels(6)
-            .y_desc("deadlocks")
+            .y_desc("scenes called a deadlock, 95 % interval")
             .y_label_formatter(&|rate| format!("{:.0} %", rate * 100.0))
             .label_style((FONT, 14))
             .draw()?;
@@ -106,7 +140,7 @@ pub(crate) fn deadlocks(table: &Table1) -> Outcome<String> {
 }
 
 const SERIES: [(&str, RGBColor); 3] =
-    [("the paper (20 scenes)", BLUE), ("ours, sector model", GREY), ("ours, swept finger", ORANGE)];
+    [("the paper (20 scenes)", BLUE), ("our LOBS, sector model", GREY), ("ours, swept finger", ORANGE)];
 
 fn rates(column: &Column1) -> [(Option<f64>, [f64; 2]); 3] {
     let printed = column.printed("lobs");

@@ -5,6 +5,7 @@ use serde::Deserialize;
 /// Table I.
 #[derive(Deserialize)]
 pub(crate) struct Table1 {
+    pub(crate) seed: u64,
     pub(crate) episodes: u32,
     /// Those of them that the baseline was given.
     pub(crate) base_episodes: u32,
@@ -61,6 +62,10 @@ pub(crate) struct Model {
 #[derive(Deserialize)]
 pub(crate) struct Method {
     pub(crate) method: String,
+    pub(crate) episodes: u32,
+    /// Searches that the time limit, or the limit of memory, ended.
+    pub(crate) late: u32,
+    pub(crate) too_large: u32,
     pub(crate) deadlock_rate: Option<f64>,
     pub(crate) deadlock_interval: [f64; 2],
     pub(crate) success_rate: Option<f64>,
@@ -87,7 +92,9 @@ pub(crate) struct Plans {
 /// Table II.
 #[derive(Deserialize)]
 pub(crate) struct Table2 {
+    pub(crate) seed: u64,
     pub(crate) episodes: u32,
+    pub(crate) time_limit_ms: u32,
     pub(crate) columns: Vec<Column2>,
 }
 
@@ -102,6 +109,7 @@ pub(crate) struct Column2 {
 /// What the paper prints.
 #[derive(Deserialize)]
 pub(crate) struct Paper2 {
+    pub(crate) episodes: u32,
     pub(crate) success_rate: f64,
     pub(crate) reposition_s_mean: f64,
 }
@@ -111,15 +119,42 @@ pub(crate) struct Paper2 {
 pub(crate) struct Placement {
     pub(crate) placement: String,
     pub(crate) episodes: u32,
+    pub(crate) successes: u32,
     /// Episodes in which no place is needed.
     pub(crate) graspable: u32,
-    pub(crate) success_rate: Option<f64>,
     pub(crate) no_space: u32,
     pub(crate) late: u32,
     pub(crate) reposition_s_mean: Option<f64>,
     /// Plans in which the checker finds any fault.
     pub(crate) faulty: u32,
     pub(crate) release_blocked: u32,
+}
+
+impl Table1 {
+    /// The command that writes it.
+    pub(crate) fn command(&self) -> String {
+        format!(
+            "singulate experiment table1 --episodes {} --base-episodes {} --seed {} --time-limit-ms {} --format json",
+            self.episodes, self.base_episodes, self.seed, self.time_limit_ms
+        )
+    }
+}
+
+impl Table2 {
+    /// The command that writes it.
+    pub(crate) fn command(&self) -> String {
+        format!(
+            "singulate experiment table2 --episodes {} --seed {} --time-limit-ms {} --format json",
+            self.episodes, self.seed, self.time_limit_ms
+        )
+    }
+}
+
+impl Method {
+    /// Searches that did not end by themselves: their time counts as the limit.
+    pub(crate) fn capped(&self) -> u32 {
+        self.late + self.too_large
+    }
 }
 
 impl Column1 {

@@ -1,6 +1,8 @@
 //! The paper's tables beside ours.
 
-use crate::markdown::{digits, ms, or_dash, percent, row, table};
+use singulate::experiments::Interval;
+
+use crate::markdown::{digits, or_dash, percent, row, table, time};
 use crate::tables::{Column1, Method, Plans, Table1, Table2};
 
 const SECTOR: &str = "sector";
@@ -13,27 +15,29 @@ const OURS: &str = "landmarks";
 pub(crate) fn table1(figures: &Table1) -> String {
     format!(
         "## The paper's Table I\n\n\
-         `singulate experiment table1`: {} scenes a column, the baseline (\"Base\") on the first {} of them, at most {} s \
-         a search. The paper has {} scenes a column and a minute. Each target is the object with the largest least option \
+         `singulate experiment table1`: {} scenes a column, the baseline (\"Base\") on the first {} of them, at most {} a \
+         search. The paper has {} scenes a column and a minute. Each target is the object with the largest least option \
          by the sector model, for both models.\n\n\
          ### Deadlocks\n\n\
-         Rates with their 95 % intervals (Wilson; the paper gives none). Where the sector model calls a deadlock, its \
-         widened fingers do not fit; the swept finger asks the real ones.\n\n\
+         Rates with their 95 % intervals (Wilson; the paper gives none). The sector model widens each finger, so some of \
+         its deadlocks are none; the swept finger tests the finger itself.\n\n\
          ![Deadlock rates: the paper's, ours by the sector model, ours by the swept finger](results/deadlocks.svg)\n\n\
          {}\n{}\n\n\
          ### Time\n\n\
-         Mean search time in milliseconds; a search that did not end counts as the limit.\n\n\
+         Mean search time; a search that did not end counts as the limit.\n\n\
          ![Search time against the number of objects](results/times.svg)\n\n{}\n\
          ### Answers\n\n\
-         Mean relocations of the scenes with a sequence, and success: a sequence or a deadlock within the limit. A wrong \
-         answer is a deadlock that is none, or a sequence longer than the least, by our proof on the same base.\n\n\
+         Success is a sequence or a deadlock within the limit; other searches were late or too large, as our Base is \
+         where it holds 5,000,000 sets. Relocations are the mean over the scenes with a sequence; +1 counts the target too, as \
+         the paper does. A wrong answer is a deadlock that is none, or a sequence longer than the least, by our proof on the \
+         same base.\n\n\
          {}\n\
          ### Every scene planned, with places and the check\n\n\
          The verdicts of the whole planner by the swept finger; in brackets those on the scenes that only the sector \
          model calls a deadlock, each plan a plan that the paper's model misses.\n\n{}",
         figures.episodes,
         figures.base_episodes,
-        digits(f64::from(figures.time_limit_ms) / 1e3),
+        time(f64::from(figures.time_limit_ms) / 1e3),
         figures.columns[0].paper.episodes,
         table(&deadlocks(figures)),
         disagreements(figures),
@@ -102,42 +106,63 @@ fn times(figures: &Table1) -> Vec<Vec<String>> {
     let mut rows = vec![row(head)];
     for column in &figures.columns {
         let mut cells = vec![name(column)];
-        cells.extend([BASE, LOBS].map(|method| ms(column.printed(method).search_s_mean)));
+        cells.extend([BASE, LOBS].map(|method| time(column.printed(method).search_s_mean)));
         let methods = [(SECTOR, BASE), (SECTOR, LOBS), (SECTOR, OURS), (SWEPT, OURS)];
-        cells.extend(methods.map(|(model, method)| or_dash(column.method(model, method).search_s_mean, ms)));
+        cells.extend(methods.map(|(model, method)| or_dash(column.method(model, method).search_s_mean, time)));
         rows.push(cells);
     }
     rows
 }
 
 fn answers(figures: &Table1) -> Vec<Vec<String>> {
-    let mut rows = vec![row(["N", "method", "success", "relocations", "false deadlocks", "not optimal"])];
+    let mut rows = vec![row([
+        "N",
+        "method",
+        "episodes",
+        "success",
+        "late or too large",
+        "relocations",
+        "+1",
+        "false deadlocks",
+        "not optimal",
+    ])];
+    let methods = [
+        (SECTOR, BASE, "our Base, sector"),
+        (SECTOR, LOBS, "our LOBS, sector"),
+        (SECTOR, OURS, "ours, sector"),
+        (SWEPT, OURS, "ours, swept finger"),
+    ];
     for column in &figures.columns {
-        for (method, label) in [(BASE, "the paper's Base"), (LOBS, "the paper's LOBS")] {
+        let mut label = name(column);
+        for (method, whose) in [(BASE, "the paper's Base"), (LOBS, "the paper's LOBS")] {
             let printed = column.printed(method);
-            let relocations = format!("{:.2}", printed.relocations_mean);
-            let cells = [&name(column), label, &percent(printed.success_rate), &relocations, "–", "–"];
-            rows.push(row(cells));
+            // It prints 0.00 where it has no sequence to take a mean of.
+            let relocations = Some(printed.relocations_mean).filter(|&mean| mean > 0.0);
+            let mut cells = vec![std::mem::take(&mut label), whose.to_owned(), column.paper.episodes.to_string()];
+            cells.extend([percent(printed.success_rate), "–".to_owned(), "–".to_owned()]);
+            cells.extend([or_dash(relocations, hundredths), "–".to_owned(), "–".to_owned()]);
+            rows.push(cells);
         }
-        let ours = [
-            (SECTOR, BASE, "our Base, sector"),
-            (SECTOR, LOBS, "our LOBS, sector"),
-            (SECTOR, OURS, "ours, sector"),
-            (SWEPT, OURS, "ours, swept finger"),
-        ];
-        for (model, method, label) in ours {
-            let figures = column.method(model, method);
-            let relocations = or_dash(figures.relocations_mean, |mean| format!("{mean:.2}"));
-            let wrong = [figures.false_deadlocks, figures.not_optimal].map(|count| count.to_string());
-            let success = or_dash(figures.success_rate, percent);
-            rows.push(row(["", label, &success, &relocations, &wrong[0], &wrong[1]]));
+        for (model, method, whose) in methods {
+            let found = column.method(model, method);
+            let mut cells = vec![String::new(), whose.to_owned(), found.episodes.to_string()];
+            cells.extend([or_dash(found.success_rate, percent), found.capped().to_string()]);
+            let relocations = [found.relocations_mean, found.relocations_mean.map(|mean| mean + 1.0)];
+            cells.extend(relocations.map(|mean| or_dash(mean, hundredths)));
+            cells.extend([found.false_deadlocks, found.not_optimal].map(|count| count.to_string()));
+            rows.push(cells);
         }
     }
     rows
 }
 
+fn hundredths(mean: f64) -> String {
+    format!("{mean:.2}")
+}
+
 fn plans(figures: &Table1) -> Vec<Vec<String>> {
-    let head = ["N", "graspable", "relocate", "proven optimal", "deadlock", "no space", "timed out", "mean time, ms"];
+    let first = "N: scenes (deadlock by sector alone)";
+    let head = [first, "graspable", "relocate", "proven optimal", "deadlock", "no space", "timed out", "mean time"];
     let mut rows = vec![row(head)];
     for column in &figures.columns {
         let counts = |plans: &Plans| {
@@ -146,7 +171,7 @@ fn plans(figures: &Table1) -> Vec<Vec<String>> {
         let mut cells = vec![format!("{}: {} ({})", column.objects, column.plans.episodes, column.extra.episodes)];
         let both = counts(&column.plans).into_iter().zip(counts(&column.extra));
         cells.extend(both.map(|(all, extra)| format!("{all} ({extra})")));
-        cells.push(or_dash(column.plans.plan_s_mean, ms));
+        cells.push(or_dash(column.plans.plan_s_mean, time));
         rows.push(cells);
     }
     rows
@@ -154,51 +179,72 @@ fn plans(figures: &Table1) -> Vec<Vec<String>> {
 
 /// The section of Table II.
 pub(crate) fn table2(figures: &Table2) -> String {
-    let head =
-        ["N", "places by", "success", "no space", "late", "mean time, ms", "plans with faults", "release blocked"];
+    let head = ["N", "places by", "success", "no space", "late", "mean time", "plans with faults", "release blocked"];
     let mut rows = vec![row(head)];
     for column in &figures.columns {
-        let n = column.objects.to_string();
-        let success = percent(column.paper.success_rate);
-        rows.push(row([&n, "the paper", &success, "–", "–", &ms(column.paper.reposition_s_mean), "–", "–"]));
+        let (n, paper) = (column.objects.to_string(), &column.paper);
+        let episodes = f64::from(paper.episodes);
+        let success = share((paper.success_rate * episodes).round(), episodes);
+        rows.push(row([&n, "the paper", &success, "–", "–", &time(paper.reposition_s_mean), "–", "–"]));
         for ours in &column.placements {
             let label = if ours.placement == "raster" { "its method, in our code" } else { "border curves (ours)" };
             let [no_space, late, faulty, blocked] =
                 [ours.no_space, ours.late, ours.faulty, ours.release_blocked].map(|count| count.to_string());
-            let success = or_dash(ours.success_rate, percent);
-            let time = or_dash(ours.reposition_s_mean, ms);
-            rows.push(row(["", label, &success, &no_space, &late, &time, &faulty, &blocked]));
+            let success = share(f64::from(ours.successes), f64::from(ours.episodes));
+            let mean = or_dash(ours.reposition_s_mean, time);
+            rows.push(row(["", label, &success, &no_space, &late, &mean, &faulty, &blocked]));
         }
     }
-    let placed = figures.columns.iter().flat_map(|column| column.placements.first());
-    let moved: Vec<String> = placed
-        .map(|placement| format!("{} of {}", placement.episodes - placement.graspable, placement.episodes))
-        .collect();
+    let placed: Vec<_> = figures.columns.iter().filter_map(|column| column.placements.first()).collect();
+    let moved: Vec<String> =
+        placed.iter().map(|placement| (placement.episodes - placement.graspable).to_string()).collect();
     format!(
         "## The paper's Table II\n\n\
-         `singulate experiment table2`: places for the sequences of LOBS by the sector model, {} scenes a column, of which \
-         {} need a place at all. Faults are the checker's, by the swept finger: a finger that meets an obstacle when it \
-         lets go, above all.\n\n{}",
+         `singulate experiment table2`: places for the sequences of LOBS by the sector model, {} scenes a column in which \
+         LOBS finds a sequence. In {} of them something has to be moved; times are over these. Rates with their 95 % \
+         intervals (Wilson). Faults are the checker's, by the swept finger: a finger that meets an obstacle when it lets go, \
+         above all. Our own places are sought by the sector model too, which overlooks the fingers' outer corners: hence \
+         their faults.\n\n{}",
         figures.episodes,
-        moved.join(", "),
+        listed(&moved),
         table(&rows),
     )
 }
 
+/// A rate with its interval.
+fn share(part: f64, whole: f64) -> String {
+    // Counts of episodes.
+    let Interval { low, high } = Interval::wilson(part as usize, whole as usize);
+    interval((whole > 0.0).then(|| part / whole), [low, high])
+}
+
+fn listed(words: &[String]) -> String {
+    words.split_last().map_or_else(String::new, |(last, others)| {
+        if others.is_empty() { last.clone() } else { format!("{} and {last}", others.join(", ")) }
+    })
+}
+
 /// What no run can settle.
-pub(crate) fn apart(figures: &Table1) -> String {
-    let first = &figures.columns[0];
+pub(crate) fn apart(table1: &Table1, table2: &Table2) -> String {
+    let (first, places) = (&table1.columns[0], &table2.columns[0]);
     format!(
         "## What could not be the same\n\n\
          * The machine: the paper's times are those of its own, ours of a shared one with 2 cores, in another language.\n\
          * The scenes: the paper does not say how it drew its own.\n\
-         * Whether the target counts as a relocation: the paper does not say. Ours does not.\n\
+         * Algorithm 1 as printed starts its sequence with the target and returns it, and the paper counts the length of the \
+         sequence. Here the target isn't counted: add 1 to compare.\n\
          * The paper's Base and LOBS can't have seen the same scenes: with {} objects Base succeeds in {} of them without a \
          single deadlock, and LOBS calls {} a deadlock.\n\
-         * Our Base knows a set again that it has reached in another order. As the paper words it, the search may go \
-         through every order.\n",
+         * Our Base knows a set again that it has reached in another order: that is how it comes to an end where there is a \
+         deadlock, and finds it. As the paper words it, the search may go through every order.\n\
+         * The image: the paper names no resolution, here a pixel has 5 mm; the paper's places are for {} scenes a column.\n\
+         * The θ_g of Eq. 7, \"the angle from the center of the circle when it overlaps by r_g\": read as that of the lens of two \
+         equal circles, which fits the formula. Read as that of a segment r_g high, discs would overlap.\n\
+         * The distance to objects that are still to be moved: the paper asks that a place does not affect what follows. Here \
+         r_g is kept round them and round the target.\n",
         first.objects,
         percent(first.printed(BASE).success_rate),
         percent(first.printed(LOBS).deadlock_rate),
+        places.paper.episodes,
     )
 }

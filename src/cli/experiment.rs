@@ -54,7 +54,7 @@ struct Common {
     /// For each search and each plan, ms
     #[arg(long, value_name = "MS", default_value_t = 60_000, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit_ms: u64,
-    /// Episodes at a time; each may take up to a gigabyte of memory [default: one per core]
+    /// Episodes at a time; each may take half a gigabyte of memory [default: one per core]
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     jobs: Option<usize>,
     /// json: for programs; text: for people
@@ -68,7 +68,7 @@ impl Experiment {
         let told = |done: usize, total: usize| progress.tell(done, total);
         match self.table {
             Table::Table1 { common, base_episodes } => {
-                let settings = common.settings(base_episodes);
+                let settings = common.settings(base_episodes)?;
                 let columns = table1(&settings, told);
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
@@ -78,7 +78,7 @@ impl Experiment {
                 }
             }
             Table::Table2 { common } => {
-                let settings = common.settings(Some(0));
+                let settings = common.settings(Some(0))?;
                 let columns = table2(&settings, told);
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
@@ -92,14 +92,21 @@ impl Experiment {
 }
 
 impl Common {
-    fn settings(&self, base_episodes: Option<usize>) -> ExperimentSettings {
-        ExperimentSettings {
-            episodes: self.episodes,
-            base_episodes: base_episodes.unwrap_or(20).min(self.episodes),
+    /// Refused where the baseline is to have more episodes than there are.
+    fn settings(&self, base_episodes: Option<usize>) -> Result<ExperimentSettings, Failure> {
+        let episodes = self.episodes;
+        let base_episodes = base_episodes.unwrap_or(episodes.min(20));
+        if base_episodes > episodes {
+            let detail = format!("--base-episodes {base_episodes}: there are {episodes} episodes (--episodes)");
+            return Err(Failure::Refused(detail));
+        }
+        Ok(ExperimentSettings {
+            episodes,
+            base_episodes,
             seed: self.seed,
             time_limit: Duration::from_millis(self.time_limit_ms),
             jobs: self.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)),
-        }
+        })
     }
 }
 

@@ -10,10 +10,15 @@ use crate::plan::{GraspModel, SearchMethod};
 /// What nobody can repeat.
 pub(super) const NOT_THE_SAME: &str = "\
 What can't be as it was for the paper's own figures: its machine; its scenes, which it only says
-are random; whether it counts the target as a relocation (here it isn't). Its baseline and its LOBS
-can't have seen the same scenes: for N=16 the one finds sequences in 95 % of them, the other calls
-20 % a deadlock. Our baseline knows a set of objects again that it reached in another order; of that
-the paper says nothing.";
+are random. Algorithm 1 as printed counts the target; here it isn't counted: add 1 to compare. Its
+baseline and its LOBS can't have seen the same scenes: for N=16 the one finds sequences in 95 % of
+them, the other calls 20 % a deadlock. Our baseline knows a set of objects again that it reached in
+another order; of that the paper says nothing. For places the paper names no resolution (here 5 mm)
+and leaves open how its θ_g is measured (here by the lens of two equal circles) and how far from
+objects that are still to be moved a place must be (here r_g).";
+
+/// Columns of words stand left, those of numbers right.
+const WORDS: [&str; 5] = ["model", "method", "places", "scenes", "faults"];
 
 /// Table I.
 pub(super) fn table1(settings: &ExperimentSettings, columns: &[Table1Column]) -> String {
@@ -26,8 +31,12 @@ pub(super) fn table1(settings: &ExperimentSettings, columns: &[Table1Column]) ->
         ),
         endings(columns),
         searches(columns),
-        "A search that the time limit or the limit of memory ended counts as the time limit.\n".to_owned(),
+        "A search that the time limit (late) or the limit of memory (too large) ended counts as the time limit.\n\
+         +1: with the target counted, as in the paper's next column.\n"
+            .to_owned(),
         plans(columns),
+        "Planned by the swept finger, with places and check; sector's deadlocks: what the sector model alone calls one.\n"
+            .to_owned(),
         conclusions(columns),
         format!("{NOT_THE_SAME}\n"),
     ]
@@ -38,62 +47,70 @@ pub(super) fn table1(settings: &ExperimentSettings, columns: &[Table1Column]) ->
 pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) -> String {
     let ExperimentSettings { episodes, seed, .. } = settings;
     let limit = seconds(settings.time_limit.as_secs_f64());
-    let titles = [
-        Column::right("N"),
-        Column::left("places"),
-        Column::right("episodes"),
-        Column::right("success %"),
-        Column::right("paper"),
-        Column::right("graspable"),
-        Column::right("no space"),
-        Column::right("late"),
-        Column::right("mean time"),
-        Column::right("median"),
-        Column::right("paper"),
-        Column::right("faulty"),
-        Column::right("at release"),
-        Column::right("otherwise"),
-        Column::left("faults"),
-    ];
-    let row = |column: &Table2Column, figures: &PlacementFigures| {
-        let faults = figures.faults.iter().map(|(code, count)| format!("{code} {count}"));
-        let placement = match figures.placement {
-            Repositioning::Raster => "raster",
-            Repositioning::Exact => "exact",
-        };
-        vec![
-            column.case.objects.to_string(),
-            placement.to_owned(),
-            figures.episodes.to_string(),
-            percent(figures.successes, figures.episodes),
-            "100".to_owned(),
-            figures.graspable.to_string(),
-            figures.no_space.to_string(),
-            figures.late.to_string(),
-            mean(figures.reposition_s),
-            median(figures.reposition_s),
-            column.case.reposition_s.map(seconds).unwrap_or_default(),
-            figures.faulty.to_string(),
-            figures.release_blocked.to_string(),
-            figures.otherwise_faulty.to_string(),
-            faults.collect::<Vec<_>>().join(", "),
-        ]
-    };
-    let rows = columns.iter().flat_map(|column| column.placements.iter().map(move |figures| row(column, figures)));
     [
         format!(
             "Table II: {episodes} episodes a column (the paper {TABLE2_EPISODES}), seed {seed}, time limit {limit}: places \
-             for the sequences that LOBS finds by the sector model\n"
+             for the\nsequences that LOBS finds by the sector model\n"
         ),
-        table(&titles, rows),
-        "Times are over the episodes in which something has to be moved: all but the graspable ones.\n\
-         Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an \
+        placings(columns),
+        "Times are over the episodes in which something has to be moved: all but the graspable ones.\n".to_owned(),
+        faults(columns),
+        "Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an\n\
          obstacle when it lets go. The exact places are sought by the sector model too, which overlooks the fingers' outer\n\
          corners: hence their faults.\n"
             .to_owned(),
         format!("{NOT_THE_SAME}\n"),
     ]
     .join("\n")
+}
+
+/// A row a column and way to find places.
+fn placements(
+    columns: &[Table2Column],
+    row: impl Fn(&Table2Column, &PlacementFigures) -> Vec<String>,
+) -> Vec<Vec<String>> {
+    let rows = columns.iter().flat_map(|column| column.placements.iter().map(move |figures| (column, figures)));
+    let named = |(column, figures): (&Table2Column, &PlacementFigures)| {
+        let placement = match figures.placement {
+            Repositioning::Raster => "raster",
+            Repositioning::Exact => "exact",
+        };
+        [vec![column.case.objects.to_string(), placement.to_owned()], row(column, figures)].concat()
+    };
+    rows.map(named).collect()
+}
+
+/// How often there is a place, and how long that takes.
+fn placings(columns: &[Table2Column]) -> String {
+    let titles =
+        titles("N|places|episodes|success %|(95 %)|paper|(95 %)|graspable|no space|late|mean time|median|paper");
+    let rows = placements(columns, |column, figures| {
+        let paper = column.case.reposition;
+        vec![
+            figures.episodes.to_string(),
+            percent(figures.successes, figures.episodes),
+            sureness(figures.successes, figures.episodes),
+            or_dash(paper, |paper| percent(paper.successes, TABLE2_EPISODES)),
+            or_dash(paper, |paper| sureness(paper.successes, TABLE2_EPISODES)),
+            figures.graspable.to_string(),
+            figures.no_space.to_string(),
+            figures.late.to_string(),
+            mean(figures.reposition_s),
+            median(figures.reposition_s),
+            or_dash(paper, |paper| seconds(paper.reposition_s)),
+        ]
+    });
+    table(&titles, rows.into_iter())
+}
+
+/// What the checker has against the plans.
+fn faults(columns: &[Table2Column]) -> String {
+    let rows = placements(columns, |_, figures| {
+        let faults: Vec<String> = figures.faults.iter().map(|(code, count)| format!("{code} {count}")).collect();
+        let counts = [figures.faulty, figures.release_blocked, figures.otherwise_faulty].map(|count| count.to_string());
+        [&counts[..], &[or_dash((!faults.is_empty()).then_some(faults), |faults| faults.join(", "))]].concat()
+    });
+    table(&titles("N|places|faulty|at release|otherwise|faults"), rows.into_iter())
 }
 
 /// Each column's methods by each grasp model, with what the paper prints for the same method.
@@ -130,25 +147,15 @@ fn model_of(model: GraspModel) -> String {
     .to_owned()
 }
 
-/// How the searches end.
+fn titles(titles: &'static str) -> Vec<Column> {
+    let column = |title| if WORDS.contains(&title) { Column::left(title) } else { Column::right(title) };
+    titles.split('|').map(column).collect()
+}
+
+/// What the searches find, and what of it is wrong.
 fn endings(columns: &[Table1Column]) -> String {
-    let titles = [
-        Column::right("N"),
-        Column::left("model"),
-        Column::left("method"),
-        Column::right("episodes"),
-        Column::right("deadlock %"),
-        Column::right("(95 %)"),
-        Column::right("paper"),
-        Column::right("(95 %)"),
-        Column::right("success %"),
-        Column::right("paper"),
-        Column::right("graspable"),
-        Column::right("late"),
-        Column::right("too large"),
-        Column::right("false deadlock"),
-        Column::right("not optimal"),
-    ];
+    let titles =
+        titles("N|model|method|episodes|deadlock %|(95 %)|paper|(95 %)|success %|paper|false deadlock|not least");
     let rows = methods(columns).map(|(column, model, method)| {
         let paper = printed(column, model, method);
         vec![
@@ -157,14 +164,11 @@ fn endings(columns: &[Table1Column]) -> String {
             name_of(method.method),
             method.episodes.to_string(),
             percent(method.deadlocks, method.episodes),
-            if method.episodes == 0 { "-".to_owned() } else { interval(method.deadlock_interval()) },
-            paper.map(|paper| percent(paper.deadlocks, TABLE1_EPISODES)).unwrap_or_default(),
-            paper.map(|paper| interval(paper.deadlock_interval())).unwrap_or_default(),
+            sureness(method.deadlocks, method.episodes),
+            or_dash(paper, |paper| percent(paper.deadlocks, TABLE1_EPISODES)),
+            or_dash(paper, |paper| sureness(paper.deadlocks, TABLE1_EPISODES)),
             percent(method.successes, method.episodes),
-            paper.map(|paper| percent(paper.successes, TABLE1_EPISODES)).unwrap_or_default(),
-            method.graspable.to_string(),
-            method.late.to_string(),
-            method.too_large.to_string(),
+            or_dash(paper, |paper| percent(paper.successes, TABLE1_EPISODES)),
             method.false_deadlocks.to_string(),
             method.not_optimal.to_string(),
         ]
@@ -172,19 +176,10 @@ fn endings(columns: &[Table1Column]) -> String {
     table(&titles, rows)
 }
 
-/// How long the searches take, and how many relocations they come to.
+/// How long the searches take, what ends them early, and how many relocations they come to: without the target, then with
+/// it, as the paper counts.
 fn searches(columns: &[Table1Column]) -> String {
-    let titles = [
-        Column::right("N"),
-        Column::left("model"),
-        Column::left("method"),
-        Column::right("knowledge"),
-        Column::right("search"),
-        Column::right("median"),
-        Column::right("paper"),
-        Column::right("relocations"),
-        Column::right("paper"),
-    ];
+    let titles = titles("N|model|method|knowledge|search|median|paper|late|too large|graspable|relocations|+1|paper");
     let rows = methods(columns).map(|(column, model, method)| {
         let paper = printed(column, model, method);
         vec![
@@ -194,9 +189,13 @@ fn searches(columns: &[Table1Column]) -> String {
             mean(model.knowledge_s),
             mean(method.search_s),
             median(method.search_s),
-            paper.map(|paper| seconds(paper.search_s)).unwrap_or_default(),
+            or_dash(paper, |paper| seconds(paper.search_s)),
+            method.late.to_string(),
+            method.too_large.to_string(),
+            method.graspable.to_string(),
             number(method.relocations_mean),
-            paper.map(|paper| number(Some(paper.relocations))).unwrap_or_default(),
+            number(method.relocations_mean.map(|mean| mean + 1.0)),
+            number(paper.map(|paper| paper.relocations).filter(|&mean| mean > 0.0)),
         ]
     });
     table(&titles, rows)
@@ -204,20 +203,7 @@ fn searches(columns: &[Table1Column]) -> String {
 
 /// Our planner's answers, places and check included.
 fn plans(columns: &[Table1Column]) -> String {
-    let titles = [
-        Column::right("N"),
-        Column::left("planned by the swept finger"),
-        Column::right("episodes"),
-        Column::right("graspable"),
-        Column::right("plan"),
-        Column::right("least"),
-        Column::right("deadlock"),
-        Column::right("no space"),
-        Column::right("timed out"),
-        Column::right("relocations"),
-        Column::right("mean time"),
-        Column::right("median"),
-    ];
+    let titles = titles("N|scenes|episodes|graspable|plan|least|deadlock|no space|late|relocations|mean time|median");
     let row = |column: &Table1Column, which: &str, figures: &PlanFigures| {
         let counts = [
             figures.episodes,
@@ -233,9 +219,9 @@ fn plans(columns: &[Table1Column]) -> String {
         row.extend([number(figures.relocations_mean), mean(figures.plan_s), median(figures.plan_s)]);
         row
     };
-    let rows = columns.iter().flat_map(|column| {
-        [row(column, "every scene", &column.plans), row(column, "a deadlock by sector alone", &column.extra)]
-    });
+    let rows = columns
+        .iter()
+        .flat_map(|column| [row(column, "all", &column.plans), row(column, "sector's deadlocks", &column.extra)]);
     table(&titles, rows)
 }
 
@@ -246,15 +232,12 @@ fn conclusions(columns: &[Table1Column]) -> String {
             columns.iter().filter(|column| of(column)).map(|column| format!("N={}", column.case.objects)).collect();
         if names.is_empty() { "none".to_owned() } else { names.join(", ") }
     };
-    let ratio = |column: &Table1Column| {
-        let ratio = column.deadlock_ratio().map_or_else(|| "no deadlock".to_owned(), |ratio| format!("{ratio:.2}"));
-        format!("N={}: {ratio}", column.case.objects)
-    };
+    let ratio = |column: &Table1Column| format!("N={}: {}", column.case.objects, number(column.deadlock_ratio()));
     let ratios: Vec<String> = columns.iter().map(ratio).collect();
     format!(
-        "Deadlocks by the swept finger over deadlocks by the sector model: {}\n\
+        "Deadlocks by the swept finger over deadlocks by the sector model:\n  {}\n\
          Columns where that is more than one half: {}\n\
-         Columns where LOBS disagrees with the paper's deadlock rate (the 95 % intervals don't overlap): {}\n",
+         Columns where LOBS disagrees with the paper's deadlock rate (the 95 % intervals don't overlap):\n  {}\n",
         ratios.join(", "),
         named(&|column| !column.at_most_half()),
         named(&Table1Column::disagrees),
@@ -262,23 +245,30 @@ fn conclusions(columns: &[Table1Column]) -> String {
 }
 
 fn percent(part: usize, whole: usize) -> String {
-    if whole == 0 { "-".to_owned() } else { format!("{:.1}", 100.0 * part as f64 / whole as f64) }
+    or_dash((whole > 0).then_some(whole), |whole| format!("{:.1}", 100.0 * part as f64 / whole as f64))
 }
 
-fn interval(interval: Interval) -> String {
-    format!("{:.1}-{:.1}", 100.0 * interval.low, 100.0 * interval.high)
+/// The 95 % interval of a rate in percent.
+fn sureness(part: usize, whole: usize) -> String {
+    let interval = (whole > 0).then(|| Interval::wilson(part, whole));
+    or_dash(interval, |interval| format!("{:.1}-{:.1}", 100.0 * interval.low, 100.0 * interval.high))
+}
+
+/// Or a dash where there is nothing.
+fn or_dash<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), show)
 }
 
 fn number(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"))
+    or_dash(value, |value| format!("{value:.2}"))
 }
 
 fn mean(spread: Option<Spread>) -> String {
-    spread.map_or_else(|| "-".to_owned(), |spread| seconds(spread.mean))
+    or_dash(spread, |spread| seconds(spread.mean))
 }
 
 fn median(spread: Option<Spread>) -> String {
-    spread.map_or_else(|| "-".to_owned(), |spread| seconds(spread.median))
+    or_dash(spread, |spread| seconds(spread.median))
 }
 
 /// A time in the unit that suits it.

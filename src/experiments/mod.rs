@@ -21,7 +21,7 @@ pub use error::{Cause, ExperimentError};
 pub use figures::{MethodFigures, ModelFigures, PlanFigures};
 pub use generate::{Arrangement, GenerateError, Recipe, generate};
 pub use interval::Interval;
-pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, TABLE1_EPISODES, TABLE2_EPISODES};
+pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, PrintedReposition, TABLE1_EPISODES, TABLE2_EPISODES};
 pub use spread::Spread;
 pub use table1::{Table1Column, table1};
 pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};

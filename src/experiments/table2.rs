@@ -96,7 +96,7 @@ pub fn table2(
     settings: &ExperimentSettings,
     mut done: impl FnMut(usize, usize),
 ) -> Result<Vec<Table2Column>, ExperimentError> {
-    let cases: Vec<&PapersCase> = PAPERS_CASES.iter().filter(|case| case.reposition_s.is_some()).collect();
+    let cases: Vec<&PapersCase> = PAPERS_CASES.iter().filter(|case| case.reposition.is_some()).collect();
     let total = settings.episodes * cases.len();
     let draw = |column: usize, failed: &_| {
         let patience = Patience { limit: settings.time_limit, failed };

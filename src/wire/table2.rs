@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::scene::PlacementWord;
 use super::table1::{mean, median, rate};
-use crate::experiments::{ExperimentSettings, PlacementFigures, TABLE2_EPISODES, Table2Column};
+use crate::experiments::{ExperimentSettings, PlacementFigures, PrintedReposition, TABLE2_EPISODES, Table2Column};
 
 /// Table II. Rates are from 0 to 1, times in seconds; null stands where there is nothing to measure.
 #[derive(Debug, Serialize)]
@@ -44,7 +44,7 @@ pub struct PaperRepositionBody {
     /// Episodes in each column.
     pub episodes: usize,
     /// Episodes with a place for every object over all episodes.
-    pub success_rate: f64,
+    pub success_rate: Option<f64>,
     /// Mean time to find the places of one episode, s.
     pub reposition_s_mean: Option<f64>,
 }
@@ -100,8 +100,8 @@ impl Table2ColumnBody {
             table: column.case.table.into(),
             paper: PaperRepositionBody {
                 episodes: TABLE2_EPISODES,
-                success_rate: 1.0,
-                reposition_s_mean: column.case.reposition_s,
+                success_rate: column.case.reposition.as_ref().map(PrintedReposition::success_rate),
+                reposition_s_mean: column.case.reposition.map(|printed| printed.reposition_s),
             },
             drawn: column.drawn,
             placements: column.placements.each_ref().map(PlacementBody::new),

@@ -100,9 +100,25 @@ fn the_text_has_the_papers_figures_in_the_next_column() {
     assert_eq!((lobs[0][6..8].to_vec(), lobs[0][9]), (vec!["55.0", "34.2-74.2"], "100.0"));
     assert!(lobs[1].ends_with(&["2.44"]) && lobs[1].contains(&"0.21"), "{:?}", lobs[1]);
     let base = starting(&["16", "sector", "Base"]);
-    assert_eq!(base[0][3..], ["0", "-", "-", "0.0", "0.0-16.1", "-", "95.0", "0", "0", "0", "0", "0"]);
+    assert_eq!(base[0][3..], ["0", "-", "-", "0.0", "0.0-16.1", "-", "95.0", "0", "0"]);
+    assert!(starting(&["50", "sector", "Base"])[1].ends_with(&["60.00", "s", "0", "0", "0", "-", "-", "-"]));
+    let [.., relocations, with_target, _] = &starting(&["20", "sector", "ours"])[1][..] else {
+        panic!("a row of figures")
+    };
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    assert!((number(with_target) - number(relocations) - 1.0).abs() < 1e-9);
+    assert!(text.contains("add 1 to compare"));
     let text = ran(&["table2", "--episodes", "1"]);
-    assert!(text.contains("exact") && text.contains("2.67 s") && text.contains("whether it counts the target"));
+    assert!(text.contains("exact") && text.contains("2.67 s") && text.contains("72.2-100.0"));
+}
+
+#[test]
+fn the_text_of_a_table_fits_120_columns() {
+    for table in ["table1", "table2"] {
+        let text = ran(&[table, "--episodes", "3", "--time-limit-ms", "1000"]);
+        let wide: Vec<&str> = text.lines().filter(|line| line.chars().count() > 120).collect();
+        assert!(wide.is_empty(), "{wide:#?}");
+    }
 }
 
 #[test]
@@ -114,6 +130,7 @@ fn a_table_or_a_count_that_is_none_is_refused() {
         &["table1", "--jobs", "0"],
         &["table1", "--time-limit-ms", "0"],
         &["table2", "--base-episodes", "1"],
+        &["table1", "--episodes", "2", "--base-episodes", "3"],
     ] {
         failed(&run(&[&["experiment"], arguments].concat()), 2);
     }
