@@ -75,7 +75,7 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
             let style = if filled { colour.filled() } else { colour.stroke_width(2) };
             chart.draw_series(marks.iter().map(|(_, point, _)| Circle::new(*point, 4, style)))?;
             let capped = marks.iter().filter(|(.., capped)| *capped);
-            chart.draw_series(capped.map(|(_, point, _)| TriangleMarker::new(*point, 9, CAPPED.stroke_width(1))))?;
+            chart.draw_series(capped.map(|(_, point, _)| Cross::new(*point, 7, CAPPED.stroke_width(1))))?;
         }
         caption(&root, &chart.backend_coord(&(float(table.columns.len()) / 2.0, TIMES.start)))?;
         for (at, column) in table.columns.iter().enumerate() {
@@ -85,7 +85,7 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
         for (at, (name, colour, filled, _)) in LINES.into_iter().enumerate() {
             key(&root, at, (3, 200), name, (colour, filled))?;
         }
-        root.draw(&(EmptyElement::at((90, 61)) + TriangleMarker::new((0, 0), 6, CAPPED.stroke_width(1))))?;
+        root.draw(&Cross::new((90, 61), 5, CAPPED.stroke_width(1)))?;
         root.draw(&Text::new("holds searches that did not end, counted as the limit", (100, 54), (FONT, 15)))?;
         root.present()?;
     }
@@ -94,8 +94,8 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
 
 /// What the columns are, below their names.
 fn caption(root: &DrawingArea<SVGBackend<'_>, Shift>, middle: &(i32, i32)) -> Outcome<()> {
-    let text = "objects N: on one table (16 to 20), at one density (25 to 50)";
-    root.draw(&Text::new(text, (middle.0 - 190, middle.1 + 28), (FONT, 15)))?;
+    let text = "objects N: Case I on one table (16 to 20), Case II at one density (25 to 50)";
+    root.draw(&Text::new(text, (middle.0 - 240, middle.1 + 28), (FONT, 15)))?;
     Ok(())
 }
 
