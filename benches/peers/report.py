@@ -34,9 +34,11 @@ class Result:
         return min((timing.seconds for timing in self.peers.values() if timing), default=None)
 
     def ratio(self) -> float | None:
-        """How many times as long as ours the fastest peer takes; None where nobody finished."""
+        """How many times as long as ours the fastest peer takes: 0 where ours did not finish, None where nobody did."""
         best = self.best()
-        return None if best is None else best / self.our_seconds
+        if self.ours is None:
+            return None if best is None else 0.0
+        return inf if best is None else best / self.our_seconds
 
     def brief(self) -> dict[str, Any]:
         """For the file: seconds to three digits; null for who did not finish."""
@@ -94,7 +96,7 @@ def table(kind: str, results: list[Result]) -> str:
         ways = [timing.how for timing in timings if timing]
         how = ", ".join(f"{name} {ways.count(name)}" for name in dict.fromkeys(ways))
         lines.append(f"  {peer:<10} {milliseconds(times)} {1e3 * alone:10.3f}  {times.count(inf)}  ({how})")
-    ratios = [ratio for r in results if r.ours and (ratio := r.ratio()) is not None]
+    ratios = [ratio for r in results if (ratio := r.ratio()) is not None]
     if ratios:
         won = sum(ratio > 1 for ratio in ratios)
         lines.append(
