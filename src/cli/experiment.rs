@@ -54,7 +54,7 @@ struct Common {
     /// For each search and each plan, ms
     #[arg(long, value_name = "MS", default_value_t = 60_000, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit_ms: u64,
-    /// Episodes at a time; each may take half a gigabyte of memory [default: one per core]
+    /// Episodes at a time; for each the baseline may hold 5,000,000 sets of objects [default: one per core]
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     jobs: Option<usize>,
     /// json: for programs; text: for people

@@ -10,7 +10,7 @@ use crate::plan::SearchMethod;
 use crate::scene::ObjectIndex;
 use crate::search::{Outcome, Restriction, least};
 
-/// The most states of the baseline: half a gigabyte for the paper's scenes, whose sets of objects fit into one word each.
+/// The most states of the baseline, some 100 bytes each for the paper's scenes, whose sets of objects fit into one word.
 const MAX_ASTAR_STATES: usize = 5_000_000;
 /// The most objects in OPEN, or in one product of premises, of LOBS: some 50 MB.
 const MAX_LOBS_MEMBERS: usize = 5_000_000;

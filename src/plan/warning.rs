@@ -88,19 +88,15 @@ impl fmt::Display for Warning {
                 pairs = counted(*pairs, "pair")
             ),
             Self::FalseDeadlock { enough } => {
-                write!(
-                    f,
-                    "no sequence found, but by the same knowledge one of {} frees the target",
-                    relocations(*enough)
-                )
+                write!(f, "no sequence found, but by the same knowledge {}", sufficient(*enough))
             }
             Self::NotOptimal { found, enough } => {
-                write!(f, "{} found, but by the same knowledge {enough} suffice", relocations(*found))
+                write!(f, "{} found, but by the same knowledge {}", counted(*found, "relocation"), sufficient(*enough))
             }
             Self::SearchTooLarge => write!(f, "the search reached its limit of memory"),
-            Self::FewerSuffice { enough } => write!(f, "by the swept finger {enough} suffice, places apart"),
+            Self::FewerSuffice { enough } => write!(f, "by the swept finger {}, places apart", sufficient(*enough)),
             Self::UnprovenDeadlock { enough: Some(enough), .. } => {
-                write!(f, "no deadlock for the swept finger: {} suffice, places apart", relocations(*enough))
+                write!(f, "no deadlock for the swept finger: {}, places apart", sufficient(*enough))
             }
             Self::UnprovenDeadlock { enough: None, .. } => {
                 write!(f, "whether this is a deadlock for the swept finger too could not be told in time")
@@ -111,8 +107,8 @@ impl fmt::Display for Warning {
     }
 }
 
-fn relocations(count: usize) -> String {
-    counted(count, "relocation")
+fn sufficient(relocations: usize) -> String {
+    format!("{} suffice{}", counted(relocations, "relocation"), if relocations == 1 { "s" } else { "" })
 }
 
 fn counted(count: usize, noun: &str) -> String {
@@ -137,6 +133,9 @@ mod tests {
         assert_eq!(faulty.to_string(), "step 1: a finger");
         let texts =
             [1, 2].map(|count| Warning::UnprovenDeadlock { enough: Some(count), setting: "search" }.to_string());
-        assert!(texts[0].contains("1 relocation suffice") && texts[1].contains("2 relocations suffice"), "{texts:?}");
+        assert!(
+            texts[0].contains("1 relocation suffices,") && texts[1].contains("2 relocations suffice,"),
+            "{texts:?}"
+        );
     }
 }

@@ -8,6 +8,8 @@ mod fault;
 mod gripper;
 mod index;
 mod object;
+#[cfg(test)]
+pub(crate) mod scenes;
 mod table;
 mod validate;
 

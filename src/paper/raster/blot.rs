@@ -65,7 +65,7 @@ pub(super) fn image(raster: &Raster, blots: &[Blot], budget: &Budget<'_>) -> Res
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::raster::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     #[test]
     fn a_pixel_is_black_when_its_middle_is_nearer_than_the_reach() {
@@ -76,7 +76,7 @@ mod tests {
             .disc("a", 0.2, 0.9, 0.15)
             .disc("b", 0.35, 0.8, 0.001)
             .disc("t", 1.4, 0.3, 0.2)
-            .build();
+            .build("t");
         let raster = Raster::new(0.01, scene.table()).unwrap();
         let blots = scene.objects().iter().map(|object| Blot::disc(&object.disc(), 0.013));
         let areas = scene.table().keep_out().iter().map(|area| Blot::round(area, 0.072));

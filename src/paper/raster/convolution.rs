@@ -139,10 +139,10 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::paper::raster::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     fn raster(columns: usize, rows: usize) -> Raster {
-        let scene = TestScene::new(3).table(columns as f64, rows as f64).disc("t", 0.0, 0.0, 0.01).build();
+        let scene = TestScene::new(3).table(columns as f64, rows as f64).disc("t", 0.0, 0.0, 0.01).build("t");
         Raster::new(1.0, scene.table()).unwrap()
     }
 

@@ -124,10 +124,10 @@ fn without(mut number: usize, prime: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::raster::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     fn raster(resolution: f64, width: f64, height: f64) -> Result<(usize, usize), TooFine> {
-        let scene = TestScene::new(3).table(width, height).disc("t", 0.0, 0.0, 0.01).build();
+        let scene = TestScene::new(3).table(width, height).disc("t", 0.0, 0.0, 0.01).build("t");
         Raster::new(resolution, scene.table()).map(|raster| (raster.columns(), raster.rows()))
     }
 
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn only_middles_strictly_between_count() {
-        let scene = TestScene::new(3).table(8.0, 8.0).disc("t", 0.0, 0.0, 0.01).build();
+        let scene = TestScene::new(3).table(8.0, 8.0).disc("t", 0.0, 0.0, 0.01).build("t");
         let raster = Raster::new(1.0, scene.table()).unwrap();
         assert_eq!(raster.columns_between(1.5, 4.5), 2..4);
         assert_eq!(raster.rows_between(1.4, 4.6), 1..5);

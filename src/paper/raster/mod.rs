@@ -20,8 +20,6 @@ mod convolution;
 mod grid;
 mod mask;
 #[cfg(test)]
-mod scenes;
-#[cfg(test)]
 mod tests;
 mod threshold;
 

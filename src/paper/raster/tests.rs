@@ -4,11 +4,11 @@ use core::time::Duration;
 
 use proptest::prelude::*;
 
-use super::scenes::TestScene;
 use super::*;
 use crate::budget::Clock;
 use crate::geometry::{ArcSet, shadow};
 use crate::scene::Gripper;
+use crate::scene::scenes::TestScene;
 
 fn moved(scene: &Scene, ids: &[&str], resolution: f64) -> Option<Vec<Relocation>> {
     let order: Vec<ObjectIndex> = ids.iter().map(|id| scene.find(id).unwrap()).collect();
@@ -73,7 +73,7 @@ proptest! {
             .margin(margin)
             .disc("t", x, y, radius)
             .scatter(&discs)
-            .build();
+            .build("t");
         prop_assume!(scene.objects().len() > 1);
         let (raster, object) = (Raster::new(0.01, scene.table()).unwrap(), ObjectIndex::new(1));
         let placed = moved(&scene, &[scene.object(object).id()], 0.01).map(|moved| moved[0].to);
@@ -86,10 +86,11 @@ proptest! {
         resolution in 0.003..0.08_f64,
     ) {
         let scene = TestScene::new(3)
+            .table(1.2, 0.7)
             .keep_out([0.0, 0.0, 0.2, 0.1])
             .disc("t", 0.6, 0.35, 0.05)
             .scatter(&discs)
-            .build();
+            .build("t");
         let order: Vec<ObjectIndex> = scene.indices().skip(1).take(4).collect();
         let ids: Vec<&str> = order.iter().map(|object| scene.object(*object).id()).collect();
         let Some(moved) = moved(&scene, &ids, resolution) else { return Ok(()) };
@@ -113,7 +114,7 @@ proptest! {
 #[test]
 fn of_equally_far_places_the_first_in_row_order_is_taken() {
     // 12 × 8 pixels, the target in the middle: all four corners are equally far.
-    let scene = TestScene::new(3).table(1.5, 1.0).disc("t", 0.75, 0.5, 0.05).disc("a", 0.9, 0.5, 0.05).build();
+    let scene = TestScene::new(3).table(1.5, 1.0).disc("t", 0.75, 0.5, 0.05).disc("a", 0.9, 0.5, 0.05).build("t");
     check(&scene, "a", 0.125, Some((0.0625, 0.0625)));
 }
 
@@ -122,7 +123,7 @@ fn there_is_no_place_on_a_full_table() {
     // Two discs fill the table but for 1 mm on each side and `gap` between them.
     let pair = |gap: f64| {
         let y = 0.226 + gap;
-        TestScene::new(2).table(0.152, y + 0.076).disc("t", 0.076, 0.076, 0.075).disc("a", 0.076, y, 0.075).build()
+        TestScene::new(2).table(0.152, y + 0.076).disc("t", 0.076, 0.076, 0.075).disc("a", 0.076, y, 0.075).build("t")
     };
     // The old place, if it is not too near to the target; in whole pixels.
     check(&pair(0.051), "a", 0.001, Some((0.0755, 0.2775)));
@@ -131,7 +132,7 @@ fn there_is_no_place_on_a_full_table() {
 
 #[test]
 fn an_object_wider_than_the_table_has_no_place() {
-    let scene = TestScene::new(3).table(0.5, 0.5).disc("t", 0.25, 0.25, 0.01).disc("a", 0.5, 0.5, 0.26).build();
+    let scene = TestScene::new(3).table(0.5, 0.5).disc("t", 0.25, 0.25, 0.01).disc("a", 0.5, 0.5, 0.26).build("t");
     check(&scene, "a", 0.01, None);
 }
 
@@ -149,7 +150,7 @@ fn a_grasp_or_release_that_is_blocked_is_stated_without_slack() {
         .disc("t", 0.06, 0.06, 0.02)
         .disc("a", 0.15, 0.06, 0.05)
         .disc("b", 0.245, 0.13, 0.04)
-        .build();
+        .build("t");
     let raster = Raster::new(0.01, scene.table()).unwrap();
     let steps = [1, 1].map(ObjectIndex::new);
     let plan = reposition(&scene, &steps, &raster, only_at_home, &Budget::unlimited()).unwrap().unwrap();
@@ -175,7 +176,7 @@ impl Clock for Looks {
 
 #[test]
 fn a_budget_that_ends_anywhere_interrupts() {
-    let scene = TestScene::new(3).disc("t", 0.6, 0.35, 0.05).disc("a", 0.7, 0.35, 0.05).build();
+    let scene = TestScene::new(3).table(1.2, 0.7).disc("t", 0.6, 0.35, 0.05).disc("a", 0.7, 0.35, 0.05).build("t");
     let raster = Raster::new(0.02, scene.table()).unwrap();
     let ends_at = |looks: u32| {
         let clock = Looks(std::cell::Cell::new(0), looks);

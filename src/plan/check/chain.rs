@@ -107,7 +107,7 @@ mod tests {
     use crate::plan::check::names::Names;
     use crate::plan::check::near::Places;
     use crate::plan::check::rings::Leaning;
-    use crate::plan::check::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     /// Forward, over everything, again and again until nothing more can be lifted.
     fn naive(scene: &Scene, rings: &mut Rings<'_>, held: &[ObjectIndex], meter: &mut Meter<'_>) -> bool {
@@ -134,7 +134,7 @@ mod tests {
         ) {
             let mut discs = vec![(0.5, 0.5, 0.05)];
             discs.extend(others);
-            let scene = TestScene::new(fingers).scatter(&discs);
+            let scene = TestScene::new(fingers).scatter(&discs).build("d0");
             let names = Names::new(&scene);
             let places = Places::new(&scene, &[], &names);
             let (budget, count) = (Budget::unlimited(), scene.objects().len());

@@ -80,7 +80,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::plan::check::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     #[test]
     fn the_distance_is_that_to_the_rectangle() {

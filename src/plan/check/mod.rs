@@ -20,8 +20,6 @@ mod needed;
 mod place;
 mod replay;
 mod rings;
-#[cfg(test)]
-mod scenes;
 mod shares;
 mod yaws;
 

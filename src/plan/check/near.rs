@@ -181,7 +181,7 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::check::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     fn crowd() -> Scene {
         let mut scene = TestScene::new(3).table(10.0, 10.0);

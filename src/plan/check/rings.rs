@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use crate::budget::Budget;
     use crate::plan::check::names::Names;
-    use crate::plan::check::scenes::TestScene;
+    use crate::scene::scenes::TestScene;
 
     /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
     fn some_band_is_free(scene: &Scene, band: f64) -> bool {
@@ -187,7 +187,7 @@ mod tests {
         ) {
             let mut discs = vec![(0.5, 0.5, 0.05)];
             discs.extend(others);
-            let scene = TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs);
+            let scene = TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs).build("d0");
             let names = Names::new(&scene);
             let places = Places::new(&scene, &[], &names);
             for leaning in [Leaning::Blocked, Leaning::Free] {

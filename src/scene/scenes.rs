@@ -1,16 +1,16 @@
-//! Scenes for the tests of this module.
+//! Scenes for the tests inside of the rooms.
 
-use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
-/// A scene in the making, whose target is `t`. Unless told otherwise: the paper's Case I table and gripper with k fingers.
-pub(super) struct TestScene(SceneDraft);
+/// A scene in the making. Unless told otherwise: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
+pub(crate) struct TestScene(SceneDraft);
 
 fn rectangle([x_min, y_min, x_max, y_max]: [f64; 4]) -> RectangleDraft {
     RectangleDraft { x_min: Some(x_min), y_min: Some(y_min), x_max: Some(x_max), y_max: Some(y_max) }
 }
 
 impl TestScene {
-    pub(super) fn new(fingers: u32) -> Self {
+    pub(crate) fn new(fingers: u32) -> Self {
         let gripper = GripperDraft {
             fingers: Some(f64::from(fingers)),
             finger_width: Some(0.02),
@@ -18,32 +18,42 @@ impl TestScene {
             margin: Some(0.0),
             yaw_tolerance: Some(0.0),
         };
-        Self(SceneDraft { gripper, target: Some("t".into()), ..SceneDraft::default() }).table(1.2, 0.7)
+        Self(SceneDraft { gripper, ..SceneDraft::default() }).table(2.0, 2.0)
     }
 
-    pub(super) fn table(mut self, width: f64, height: f64) -> Self {
+    pub(crate) fn table(mut self, width: f64, height: f64) -> Self {
         self.0.table.top = rectangle([0.0, 0.0, width, height]);
         self
     }
 
-    pub(super) fn keep_out(mut self, sides: [f64; 4]) -> Self {
+    pub(crate) fn keep_out(mut self, sides: [f64; 4]) -> Self {
         self.0.table.keep_out.push(rectangle(sides));
         self
     }
 
-    pub(super) fn margin(mut self, margin: f64) -> Self {
+    pub(crate) fn finger(mut self, width: f64, clearance: f64) -> Self {
+        self.0.gripper = GripperDraft { finger_width: Some(width), clearance: Some(clearance), ..self.0.gripper };
+        self
+    }
+
+    pub(crate) fn yaw_tolerance(mut self, tolerance: f64) -> Self {
+        self.0.gripper.yaw_tolerance = Some(tolerance);
+        self
+    }
+
+    pub(crate) fn margin(mut self, margin: f64) -> Self {
         self.0.gripper.margin = Some(margin);
         self
     }
 
-    pub(super) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
+    pub(crate) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
         let object = ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), radius: Some(radius), fixed: false };
         self.0.objects.push(object);
         self
     }
 
-    /// Those of the discs (x, y, radius) that don't overlap an earlier one, named by their number.
-    pub(super) fn scatter(mut self, discs: &[(f64, f64, f64)]) -> Self {
+    /// Those of the discs (x, y, radius) that don't overlap an earlier one, as d0, d1 and so on by their places in the list.
+    pub(crate) fn scatter(mut self, discs: &[(f64, f64, f64)]) -> Self {
         for (at, &(x, y, radius)) in discs.iter().enumerate() {
             let apart = |other: &ObjectDraft| {
                 let (dx, dy) = (other.x.unwrap_or_default() - x, other.y.unwrap_or_default() - y);
@@ -56,7 +66,8 @@ impl TestScene {
         self
     }
 
-    pub(super) fn build(self) -> Scene {
+    pub(crate) fn build(mut self, target: &str) -> Scene {
+        self.0.target = Some(target.into());
         Scene::new(self.0, &SceneLimits::default()).expect("a scene that holds").0
     }
 }
