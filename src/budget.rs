@@ -8,6 +8,19 @@ pub trait Clock {
     fn elapsed(&self) -> Duration;
     /// True once the caller has gone.
     fn cancelled(&self) -> bool;
+    /// Time that the caller took back: what is left is shorter by so much, and the best so far is still wanted.
+    fn withdrawn(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+/// How far the search for the least set has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Incumbent {
+    /// The size of the best set known.
+    pub cost: usize,
+    /// No set is smaller.
+    pub lower_bound: usize,
 }
 
 /// A clock that stands still: nothing is ever interrupted. For tests, benches and callers without a limit.
@@ -34,23 +47,43 @@ pub struct Interrupted;
 pub struct Budget<'a> {
     clock: &'a dyn Clock,
     deadline: Duration,
+    observer: Option<&'a dyn Fn(Incumbent)>,
 }
 
 impl<'a> Budget<'a> {
     /// `deadline` counts from the same instant as the clock: the arrival of the request.
     pub fn new(clock: &'a dyn Clock, deadline: Duration) -> Self {
-        Self { clock, deadline }
+        Self { clock, deadline, observer: None }
     }
 
     /// A budget that never ends.
     pub fn unlimited() -> Budget<'static> {
-        Budget { clock: &Unlimited, deadline: Duration::MAX }
+        Budget { clock: &Unlimited, deadline: Duration::MAX, observer: None }
+    }
+
+    /// The same, and somebody is told how far the search has come.
+    #[must_use]
+    pub fn observed(self, observer: &'a dyn Fn(Incumbent)) -> Self {
+        Self { observer: Some(observer), ..self }
+    }
+
+    /// The same, and nobody is told: for questions besides the one that was asked.
+    #[must_use]
+    pub fn unobserved(self) -> Self {
+        Self { observer: None, ..self }
+    }
+
+    /// Tell how far the search has come, often rather than seldom; what is told twice is the observer's to drop.
+    pub fn note(&self, incumbent: Incumbent) {
+        if let Some(observer) = self.observer {
+            observer(incumbent);
+        }
     }
 
     /// # Errors
     /// [`Interrupted`] once the deadline has passed or the caller has gone.
     pub fn check(&self) -> Result<(), Interrupted> {
-        if self.clock.elapsed() >= self.deadline || self.clock.cancelled() { Err(Interrupted) } else { Ok(()) }
+        if self.spent() >= self.deadline || self.clock.cancelled() { Err(Interrupted) } else { Ok(()) }
     }
 
     /// Time since the request arrived.
@@ -60,7 +93,7 @@ impl<'a> Budget<'a> {
 
     /// Time left before the deadline.
     pub fn remaining(&self) -> Duration {
-        self.deadline.saturating_sub(self.clock.elapsed())
+        self.deadline.saturating_sub(self.spent())
     }
 
     /// The same clock with an earlier deadline: `share` (0 to 1) of the time that is left.
@@ -70,7 +103,11 @@ impl<'a> Budget<'a> {
         if left > Duration::from_secs(1_000_000) {
             return *self;
         }
-        Self { clock: self.clock, deadline: self.clock.elapsed() + left.mul_f64(share) }
+        Self { deadline: self.spent() + left.mul_f64(share), ..*self }
+    }
+
+    fn spent(&self) -> Duration {
+        self.clock.elapsed().saturating_add(self.clock.withdrawn())
     }
 }
 
@@ -78,7 +115,25 @@ impl<'a> Budget<'a> {
 mod tests {
     use super::*;
 
+    /// So many ms have passed; the caller has gone.
     struct At(u64, bool);
+
+    /// So many ms have passed and so many were taken back.
+    struct Less(u64, u64);
+
+    impl Clock for Less {
+        fn elapsed(&self) -> Duration {
+            Duration::from_millis(self.0)
+        }
+
+        fn cancelled(&self) -> bool {
+            false
+        }
+
+        fn withdrawn(&self) -> Duration {
+            Duration::from_millis(self.1)
+        }
+    }
 
     impl Clock for At {
         fn elapsed(&self) -> Duration {
@@ -104,5 +159,27 @@ mod tests {
         let whole = Budget::new(&At(4, false), Duration::from_millis(10));
         assert_eq!(whole.share(0.5).remaining(), Duration::from_millis(3));
         assert_eq!(Budget::unlimited().share(0.5).check(), Ok(()));
+    }
+
+    #[test]
+    fn time_that_is_withdrawn_is_spent_but_has_not_passed() {
+        let clock = Less(4, 5);
+        let budget = Budget::new(&clock, Duration::from_millis(10));
+        assert_eq!((budget.check(), budget.remaining()), (Ok(()), Duration::from_millis(1)));
+        assert_eq!(budget.elapsed(), Duration::from_millis(4));
+        assert_eq!(budget.share(0.5).remaining(), Duration::from_micros(500));
+        assert_eq!(Budget::new(&clock, Duration::from_millis(9)).check(), Err(Interrupted));
+    }
+
+    #[test]
+    fn who_asked_is_told_and_nobody_else() {
+        let told = core::cell::Cell::new(None);
+        let observer = |incumbent| told.set(Some(incumbent));
+        let budget = Budget::unlimited().observed(&observer);
+        let incumbent = Incumbent { cost: 3, lower_bound: 2 };
+        budget.share(0.5).unobserved().note(incumbent);
+        assert_eq!(told.take(), None);
+        budget.share(0.5).note(incumbent);
+        assert_eq!(told.take(), Some(incumbent));
     }
 }

@@ -3,7 +3,7 @@
 //! In reading order: a checked [`scene`]; exact [`geometry`] of fingers and discs; the [`knowledge`] of which obstacles
 //! must go first; the [`search`] for the least set of them, with its proof; the [`placement`] of what is moved; the
 //! [`paper`]'s own methods; the [`plan`] that couples these and its independent checker. Round that pure core lie the
-//! edges: [`wire`] knows JSON, [`jobs`] threads, [`api`] HTTP, [`render`] drawings, [`experiments`] made-up scenes and the
+//! edges: [`wire`] knows JSON, [`workers`] threads, [`jobs`] what outlives them, [`api`] HTTP, [`render`] drawings, [`experiments`] made-up scenes and the
 //! paper's tables, [`cli`] the command line, [`config`] its settings and [`telemetry`] the log.
 
 pub mod api;
@@ -22,3 +22,4 @@ pub mod scene;
 pub mod search;
 pub mod telemetry;
 pub mod wire;
+pub mod workers;

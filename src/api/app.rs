@@ -13,28 +13,8 @@ use super::problem::{internal, refused};
 use super::reading::{Known, Read, Reading};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
-use crate::jobs::{Outcome, Pool};
-use crate::plan::check::{self, Report};
-use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
-use crate::scene::Scene;
 use crate::wire::{PlanRequest, Problem};
-
-/// The computations that the service offers. The default is the planner; a test may stand in another.
-#[derive(Clone, Copy)]
-pub struct Engine {
-    /// Plan for the scene's target.
-    pub plan: fn(&Scene, &Settings, &Budget<'_>) -> Result<Answer, PlanError>,
-    /// Every movable object as the target.
-    pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
-    /// Check a stated answer.
-    pub check: fn(&Scene, &Claim, &Budget<'_>) -> Report,
-}
-
-impl Default for Engine {
-    fn default() -> Self {
-        Self { plan: plan::plan, survey: plan::survey, check: check::check }
-    }
-}
+use crate::workers::{Engine, Outcome, Pool};
 
 /// The service's state.
 pub struct App {

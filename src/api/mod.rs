@@ -19,8 +19,10 @@ mod settings;
 mod survey;
 mod verification;
 
-pub use app::{App, Engine};
+pub use app::App;
 pub use document::{openapi, openapi_json};
 pub use router::router;
 pub use server::run;
 pub use settings::ServerSettings;
+
+pub use crate::workers::Engine;

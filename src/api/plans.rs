@@ -10,10 +10,10 @@ use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
 use super::app::{App, Served, json};
+use super::body;
 use super::document::RequestProblems;
 use super::problem::unread;
 use super::reading::Known;
-use super::{body, problem};
 use crate::budget::Budget;
 use crate::plan::{Answer, Statistics, Unplanned, Verdict};
 use crate::render;
@@ -41,10 +41,7 @@ pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) ->
     let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
     let body = body::receive(request, &app.settings).await?;
     let engine = app.engine;
-    let work = move |request: &PlanRequest, budget: &Budget<'_>| {
-        let answer = (engine.plan)(&request.scene, &request.settings, budget);
-        write(form, request, &answer.map_err(|error| problem::plan_failed(request, &error))?)
-    };
+    let work = move |request: &PlanRequest, budget: &Budget<'_>| write(form, request, &engine.answer(request, budget)?);
     let too_late = move |known: Known<'_, PlanRequest>| match (known, form) {
         (Known::Request(request), _) => {
             let verdict = Verdict::TimedOut(Unplanned::default());

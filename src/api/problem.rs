@@ -6,9 +6,8 @@ use axum::Json;
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::jobs::Refused;
-use crate::plan::PlanError;
-use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody};
+use crate::wire::{Problem, ProblemKind};
+use crate::workers::Refused;
 
 /// The media type of a problem document.
 pub(super) const PROBLEM_JSON: &str = "application/problem+json";
@@ -52,14 +51,6 @@ pub(super) fn unread() -> Problem {
 /// A scene that was read, but whose answer did not get done within its time limit, and half of it is of no use.
 pub(super) fn late() -> Problem {
     Problem::new(ProblemKind::Overloaded, "the answer was not done within the time limit")
-}
-
-/// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
-pub(super) fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
-    let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
-    let scene = serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default();
-    tracing::error!(%scene, settings = ?request.settings, faults = ?report.faults, "an answer failed its check");
-    Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")
 }
 
 /// A defect of the service.

@@ -16,10 +16,11 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::task::{JoinSet, spawn_blocking};
 use tokio::time::{sleep, timeout};
 
-use super::app::{App, Engine};
+use super::app::App;
 use super::patience::PatientStream;
 use super::router::router;
 use super::settings::ServerSettings;
+use crate::workers::Engine;
 
 /// How long to wait after the system refused a connection, mostly for want of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
@@ -58,20 +59,20 @@ pub async fn run_with(
     let graceful = GracefulShutdown::new();
     {
         let mut shutdown = pin!(shutdown);
-        let slots = Arc::new(Semaphore::new(settings.connections.max(1)));
+        let slots = Arc::new(Semaphore::new(app.settings.connections.max(1)));
         let service = router(Arc::clone(&app));
         loop {
             let (stream, slot) = tokio::select! {
                 () = &mut shutdown => break,
                 accepted = accept(&listener, &slots) => accepted,
             };
-            connections.spawn(serve(stream, slot, service.clone(), settings, graceful.watcher()));
+            connections.spawn(serve(stream, slot, service.clone(), Arc::clone(&app), graceful.watcher()));
             while connections.try_join_next().is_some() {}
         }
     }
     app.drain();
     drop(listener);
-    let last_answer = settings.body_timeout + settings.limits.max_time_limit;
+    let last_answer = app.settings.body_timeout + app.settings.limits.max_time_limit;
     if timeout(last_answer + FAREWELL, graceful.shutdown()).await.is_err() {
         tracing::warn!("some clients did not take their answers");
     }
@@ -94,18 +95,12 @@ async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, O
     }
 }
 
-async fn serve(
-    stream: TcpStream,
-    slot: OwnedSemaphorePermit,
-    service: Router,
-    settings: ServerSettings,
-    watcher: Watcher,
-) {
+async fn serve(stream: TcpStream, slot: OwnedSemaphorePermit, service: Router, app: Arc<App>, watcher: Watcher) {
     // Answers are small and waited for.
     if let Err(error) = stream.set_nodelay(true) {
         tracing::debug!(%error, "the connection keeps its delay");
     }
-    let (stream, quiet) = PatientStream::new(stream, &settings);
+    let (stream, quiet) = PatientStream::new(stream, &app.settings);
     let service = TowerToHyperService::new(service);
     let service = service_fn(move |request| {
         quiet.set(false);

@@ -3,13 +3,16 @@
 use core::time::Duration;
 use std::thread::available_parallelism;
 
+use crate::jobs::JobSettings;
 use crate::wire::RequestLimits;
 
 /// The service's settings.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ServerSettings {
     /// What a request may ask for.
     pub limits: RequestLimits,
+    /// Where jobs are kept and how they run.
+    pub jobs: JobSettings,
     /// Planning threads.
     pub threads: usize,
     /// Requests that may wait for a planning thread; more are refused.
@@ -30,6 +33,7 @@ impl Default for ServerSettings {
     fn default() -> Self {
         Self {
             limits: RequestLimits::default(),
+            jobs: JobSettings::default(),
             threads: available_parallelism().map_or(1, usize::from),
             queue: 64,
             max_body_bytes: 4_000_000,

@@ -10,10 +10,10 @@ use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
 use super::app::{App, json};
+use super::body;
 use super::document::RequestProblems;
 use super::problem::unread;
 use super::reading::Known;
-use super::{body, problem};
 use crate::budget::Budget;
 use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
 
@@ -39,9 +39,7 @@ pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) 
     let body = body::receive(request, &app.settings).await?;
     let engine = app.engine;
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
-        let entries = (engine.survey)(&request.scene, budget);
-        let entries = entries.map_err(|error| problem::plan_failed(request, &error))?;
-        json(&SurveyBody::new(&request.scene, &entries))
+        json(&SurveyBody::new(&request.scene, &engine.survey(request, budget)?))
     };
     let too_late = |known: Known<'_, PlanRequest>| match known {
         Known::Request(request) => json(&SurveyBody::timed_out(&request.scene)),

@@ -52,7 +52,7 @@ const MAX_MS: u64 = 86_400_000;
 const MAX_BYTES: u64 = 1_000_000_000;
 
 /// Every setting.
-pub static SETTINGS: [Setting; 16] = [
+pub static SETTINGS: &[Setting] = &[
     Setting {
         name: "listen",
         scope: Scope::Service,
@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn every_setting_takes_back_what_it_shows() {
-        for setting in &SETTINGS {
+        for setting in SETTINGS {
             let mut config = Config::default();
             let shown = (setting.get)(&config);
             (setting.set)(&mut config, &shown).unwrap();
@@ -253,7 +253,7 @@ mod tests {
 
     #[test]
     fn a_value_that_makes_no_sense_is_refused() {
-        for setting in &SETTINGS {
+        for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = (setting.set)(&mut Config::default(), text);
                 assert!(outcome.is_err() || setting.name == "log", "{} takes '{text}'", setting.name);

@@ -1,7 +1,19 @@
-//! Runs computations on threads of their own, so that waiting for them costs the rest of the service nothing.
+//! Jobs that are never lost: what was accepted is on disk, runs on whatever server has room, and ends once.
+//!
+//! A [`Store`] keeps them; a runner claims them, one lease at a time, and plans; whoever watches a job is woken by
+//! [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
 
-mod pending;
-mod pool;
+mod hints;
+mod job;
+mod settings;
+mod store;
+mod timestamp;
 
-pub use pending::{Outcome, Pending};
-pub use pool::{Pool, Refused};
+pub use hints::{Hints, Watcher};
+pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
+pub use settings::JobSettings;
+pub use store::{
+    Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_ATTEMPTS, MAX_INCUMBENT_EVENTS, Page, Removal,
+    Renewal, Store, StoreError, SubmitError, Swept,
+};
+pub use timestamp::Timestamp;

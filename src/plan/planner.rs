@@ -25,7 +25,8 @@ const SEARCH_SHARE: f64 = 0.6;
 /// The share of the rest after which placement does; the last part is the checker's.
 const PLACEMENT_SHARE: f64 = 0.75;
 
-/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
+/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served. Who
+/// observes the budget is told of the best set and the bound, both unchecked and places apart.
 ///
 /// An answer by the paper's methods is judged by our own afterwards, within the same time: bounds and locks are those of
 /// the swept finger, and what the checker or the exact search has against the answer becomes a warning.
@@ -33,8 +34,9 @@ const PLACEMENT_SHARE: f64 = 0.75;
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if the answer fails its check.
 pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
-    let mut planner =
-        Planner { scene, settings, budget, statistics: Statistics::default(), warnings: Vec::new(), sought: None };
+    let (observed, budget) = (budget, &budget.unobserved());
+    let statistics = Statistics::default();
+    let mut planner = Planner { scene, settings, observed, budget, statistics, warnings: Vec::new(), sought: None };
     let verdict = planner.verdict()?;
     let Planner { mut statistics, mut warnings, sought, .. } = planner;
     let before = budget.elapsed();
@@ -51,6 +53,9 @@ pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<A
 struct Planner<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
+    /// The budget of the question that was asked.
+    observed: &'a Budget<'a>,
+    /// The same for all questions that come up besides.
     budget: &'a Budget<'a>,
     statistics: Statistics,
     warnings: Vec<Warning>,
@@ -61,7 +66,7 @@ struct Planner<'a> {
 impl Planner<'_> {
     fn verdict(&mut self) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
-        let search_budget = self.budget.share(SEARCH_SHARE);
+        let search_budget = self.observed.share(SEARCH_SHARE);
         let base = self.settings.search.base(self.scene, self.settings.grasp_model, &search_budget);
         self.statistics.knowledge = self.since(started);
         let base = match base {

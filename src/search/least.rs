@@ -69,6 +69,7 @@ impl<'p> Search<'p> {
         // Cheap sets first: each that fails teaches more landmarks.
         let mut priced = self.landmarks.len();
         loop {
+            pace.note(self.best.len(), self.bound);
             if self.best.len() <= self.bound {
                 return Ok(());
             }
@@ -84,6 +85,7 @@ impl<'p> Search<'p> {
         }
         while self.best.len() > self.bound {
             let Some(hit) = self.least_hitting_set(pace)? else { break };
+            pace.note(self.best.len(), self.bound);
             self.learn(&hit, pace)?;
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! How often the search looks at its budget.
 
-use crate::budget::{Budget, Interrupted};
+use crate::budget::{Budget, Incumbent, Interrupted};
 
 /// Counts steps and asks the budget now and then: reading a clock costs as much as some steps do.
 pub(super) struct Pace<'a> {
@@ -28,5 +28,10 @@ impl<'a> Pace<'a> {
         }
         self.left = BEAT;
         self.budget.check()
+    }
+
+    /// Tell whoever watches how far the search has come.
+    pub(super) fn note(&self, cost: usize, lower_bound: usize) {
+        self.budget.note(Incumbent { cost, lower_bound });
     }
 }

@@ -63,7 +63,7 @@ fn every_command_is_listed() {
 
 #[test]
 fn every_setting_is_listed_with_its_default() {
-    for setting in &SETTINGS {
+    for setting in SETTINGS {
         let default = match setting.name {
             "threads" => "one per core".to_owned(),
             _ => format!("`{}`", (setting.get)(&Config::default())),

@@ -180,7 +180,7 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     use super::*;
-    use crate::jobs::Outcome;
+    use crate::workers::Outcome;
 
     const LONG: Duration = Duration::from_secs(600);
 

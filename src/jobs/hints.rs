@@ -1,0 +1,100 @@
+//! Wakes whoever waits for a job to change, or for work.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use tokio::sync::Notify;
+
+use super::job::JobId;
+
+/// Who waits for what.
+#[derive(Debug, Default)]
+pub struct Hints {
+    watched: Arc<Watched>,
+    /// Woken when a job may be there to be claimed.
+    pub work: Notify,
+    /// Woken when a callback may be due.
+    pub callbacks: Notify,
+}
+
+type Watched = Mutex<HashMap<JobId, (Arc<Notify>, usize)>>;
+
+/// Waits for one job.
+#[derive(Debug)]
+pub struct Watcher {
+    watched: Arc<Watched>,
+    id: JobId,
+    notify: Arc<Notify>,
+}
+
+impl Hints {
+    /// Whoever watches the job looks again.
+    pub fn changed(&self, id: JobId) {
+        if let Some((notify, _)) = lock(&self.watched).get(&id) {
+            notify.notify_waiters();
+        }
+    }
+
+    /// Everybody looks again: changes may have gone unheard.
+    pub fn all_changed(&self) {
+        lock(&self.watched).values().for_each(|(notify, _)| notify.notify_waiters());
+        self.work.notify_waiters();
+        self.callbacks.notify_waiters();
+    }
+
+    /// Watch a job.
+    pub fn watch(&self, id: JobId) -> Watcher {
+        let mut watched = lock(&self.watched);
+        let (notify, count) = watched.entry(id).or_default();
+        *count += 1;
+        Watcher { watched: Arc::clone(&self.watched), id, notify: Arc::clone(notify) }
+    }
+}
+
+impl Watcher {
+    /// Done once the job may have changed since this was called; a look at the job goes between the call and the waiting.
+    pub fn changed(&self) -> impl Future<Output = ()> {
+        let mut notified = Box::pin(Arc::clone(&self.notify).notified_owned());
+        notified.as_mut().enable();
+        notified
+    }
+}
+
+impl Drop for Watcher {
+    fn drop(&mut self) {
+        let mut watched = lock(&self.watched);
+        if let Some((_, count)) = watched.get_mut(&self.id) {
+            *count -= 1;
+            if *count == 0 {
+                watched.remove(&self.id);
+            }
+        }
+    }
+}
+
+/// No invariant of what the lock guards can be broken by a panic.
+fn lock(watched: &Watched) -> MutexGuard<'_, HashMap<JobId, (Arc<Notify>, usize)>> {
+    watched.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_watcher_hears_of_its_own_job_and_leaves_nothing_behind() {
+        let hints = Hints::default();
+        let (id, other) = (JobId::new(), JobId::new());
+        let (watcher, second) = (hints.watch(id), hints.watch(id));
+        let change = watcher.changed();
+        hints.changed(other);
+        hints.changed(id);
+        change.await;
+        drop(watcher);
+        let change = second.changed();
+        hints.all_changed();
+        change.await;
+        drop(second);
+        assert!(lock(&hints.watched).is_empty());
+    }
+}

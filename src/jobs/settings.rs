@@ -1,0 +1,31 @@
+//! What the operator may set about jobs.
+
+use core::time::Duration;
+use std::thread::available_parallelism;
+
+/// The settings of jobs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JobSettings {
+    /// Where jobs are kept: `sqlite:PATH`, `sqlite::memory:` or `postgres://…`.
+    pub url: String,
+    /// Threads that plan for jobs.
+    pub threads: usize,
+    /// Jobs that may wait, on all servers of the store together; more are refused.
+    pub max_queued: usize,
+    /// For how long a worker that says nothing keeps its job.
+    pub lease: Duration,
+    /// How long a job may wait, and for how long an ended one is kept.
+    pub ttl: Duration,
+}
+
+impl Default for JobSettings {
+    fn default() -> Self {
+        Self {
+            url: "sqlite:singulate.db".to_owned(),
+            threads: available_parallelism().map_or(1, usize::from),
+            max_queued: 10_000,
+            lease: Duration::from_secs(10),
+            ttl: Duration::from_hours(1),
+        }
+    }
+}

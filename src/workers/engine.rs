@@ -1,0 +1,50 @@
+//! The computations that the service offers, and what it says where one of them fails.
+
+use crate::budget::Budget;
+use crate::plan::check::{self, Report};
+use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
+use crate::scene::Scene;
+use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody};
+
+/// The computations. The default is the planner; a test may stand in another.
+#[derive(Clone, Copy)]
+pub struct Engine {
+    /// Plan for the scene's target.
+    pub plan: fn(&Scene, &Settings, &Budget<'_>) -> Result<Answer, PlanError>,
+    /// Every movable object as the target.
+    pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
+    /// Check a stated answer.
+    pub check: fn(&Scene, &Claim, &Budget<'_>) -> Report,
+}
+
+impl Default for Engine {
+    fn default() -> Self {
+        Self { plan: plan::plan, survey: plan::survey, check: check::check }
+    }
+}
+
+impl Engine {
+    /// Plan for a request.
+    ///
+    /// # Errors
+    /// A problem where there is no answer.
+    pub fn answer(&self, request: &PlanRequest, budget: &Budget<'_>) -> Result<Answer, Problem> {
+        (self.plan)(&request.scene, &request.settings, budget).map_err(|error| plan_failed(request, &error))
+    }
+
+    /// Survey a request's scene.
+    ///
+    /// # Errors
+    /// A problem where there is no answer.
+    pub fn survey(&self, request: &PlanRequest, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, Problem> {
+        (self.survey)(&request.scene, budget).map_err(|error| plan_failed(request, &error))
+    }
+}
+
+/// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
+fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
+    let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
+    let scene = serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default();
+    tracing::error!(%scene, settings = ?request.settings, faults = ?report.faults, "an answer failed its check");
+    Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")
+}
