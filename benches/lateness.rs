@@ -20,6 +20,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use singulate::api::{self, ServerSettings};
+use singulate::jobs::JobSettings;
 use singulate::scene::{Scene, SceneDraft};
 use singulate::wire::{RequestLimits, SceneBody, read_scene};
 use tokio::net::TcpListener;
@@ -85,7 +86,9 @@ fn serve() -> SocketAddr {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().expect("threads");
     let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).expect("a free port");
     let address = listener.local_addr().expect("bound");
-    thread::spawn(move || runtime.block_on(api::run(listener, ServerSettings::default(), core::future::pending())));
+    let jobs = JobSettings { url: "sqlite::memory:".to_owned(), ..JobSettings::default() };
+    let settings = ServerSettings { jobs, ..ServerSettings::default() };
+    thread::spawn(move || runtime.block_on(api::run(listener, settings, core::future::pending())));
     address
 }
 

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex};
 use axum::body::Body;
 use axum::http::{Request, header};
 use singulate::api::{App, Engine, ServerSettings, router};
+use singulate::jobs::JobSettings;
 use tower::ServiceExt;
 
 #[derive(Clone, Default)]
@@ -29,7 +30,9 @@ async fn a_planning_call_leaves_one_line_that_names_its_scene() {
     let writer = pages.clone();
     let subscriber = tracing_subscriber::fmt().with_ansi(false).with_writer(move || writer.clone()).finish();
     let _guard = tracing::subscriber::set_default(subscriber);
-    let app = Arc::new(App::new(ServerSettings::default(), Engine::default()).unwrap());
+    let jobs = JobSettings { url: "sqlite::memory:".to_owned(), ..JobSettings::default() };
+    let settings = ServerSettings { jobs, ..ServerSettings::default() };
+    let app = Arc::new(App::start(settings, Engine::default()).await.unwrap());
     let body = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 1, "y_max": 1},
         "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
         "objects": [{"id": "a", "x": 0.5, "y": 0.5, "radius": 0.1}], "target": "a"}"#;

@@ -1,19 +1,22 @@
 //! What the handlers share: the settings, the planning pool, and the way from a request to bytes that never stalls the
 //! threads that serve connections.
 
+use core::time::Duration;
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
+use tokio_util::sync::CancellationToken;
 
 use super::log;
-use super::problem::{internal, refused};
-use super::reading::{Known, Read, Reading};
+use super::problem::{internal, refused, unread};
+use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
-use crate::wire::{PlanRequest, Problem};
+use crate::jobs::{self, Runner, Store};
+use crate::wire::{PlanRequest, Problem, RequestLimits};
 use crate::workers::{Engine, Outcome, Pool};
 
 /// The service's state.
@@ -21,30 +24,63 @@ pub struct App {
     pub(super) settings: ServerSettings,
     pub(super) engine: Engine,
     pub(super) pool: Pool,
-    draining: AtomicBool,
+    pub(super) store: Arc<dyn Store>,
+    pub(super) runner: Arc<Runner>,
+    /// Room for clients that wait for a job.
+    pub(super) waiting: Semaphore,
+    /// Room for streams of events.
+    pub(super) streams: Arc<Semaphore>,
+    /// Done once the service shuts down.
+    pub(super) draining: CancellationToken,
 }
+
+/// How long a body may wait to be read where nothing else limits its time.
+const READING_LIMIT: Duration = Duration::from_secs(5);
 
 /// The body of a response.
 pub(super) type Served = Result<Vec<u8>, Problem>;
 
 impl App {
-    /// Starts the planning threads.
+    /// Opens the store of jobs and starts the planning threads.
     ///
     /// # Errors
-    /// If the system gives no thread.
-    pub fn new(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
+    /// If the store can't be opened, or the system gives no thread.
+    pub async fn start(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
+        let store = jobs::open(&settings.jobs).await.map_err(io::Error::other)?;
         let pool = Pool::new(settings.threads, settings.queue)?;
-        Ok(Self { settings, engine, pool, draining: AtomicBool::new(false) })
+        let runner = Arc::new(Runner::new(Arc::clone(&store), &settings.jobs, engine, settings.limits)?);
+        let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
+        let draining = CancellationToken::new();
+        Ok(Self { settings, engine, pool, store, runner, waiting, streams: Arc::new(streams), draining })
     }
 
     /// From now on the service says that it is not ready, though it still answers what reaches it.
     pub(super) fn drain(&self) {
-        self.draining.store(true, Ordering::Relaxed);
+        self.draining.cancel();
     }
 
     /// True if new requests are welcome.
     pub(super) fn ready(&self) -> bool {
-        !self.draining.load(Ordering::Relaxed) && self.pool.ready()
+        !self.draining.is_cancelled() && self.pool.ready() && self.runner.ready()
+    }
+
+    /// Read a body that is not to be answered at once: a small one here, a large one on the planning pool.
+    pub(super) async fn read<T: Send + 'static>(
+        &self,
+        arrival: Instant,
+        body: Vec<u8>,
+        read: impl FnOnce(&[u8], &RequestLimits) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let limits = self.settings.limits;
+        if body.len() <= SMALL_BODY {
+            return read(&body, &limits);
+        }
+        let pending = self.pool.submit(arrival, READING_LIMIT, move |_: &Budget<'_>| read(&body, &limits));
+        match pending.map_err(refused)?.outcome().await {
+            Outcome::Done(read) => read,
+            Outcome::TimedOut => Err(unread()),
+            Outcome::Panicked => Err(internal()),
+        }
     }
 
     /// Read the body and run `work` on the planning pool; where the time limit comes first, `too_late` says what is left

@@ -26,6 +26,7 @@ use crate::wire::{Problem, ProblemKind};
     ),
     tags(
         (name = "planning", description = "Plans, their check, the survey of a table, and what is known before any search."),
+        (name = "jobs", description = "Plans that wait for a worker, and for their caller to come back."),
         (name = "operation", description = "Probes, the build, this document."),
     ),
     components(schemas(Problem))
@@ -110,13 +111,13 @@ impl IntoResponses for RequestProblems {
     }
 }
 
-fn problem(example: &Problem, description: &str) -> Response {
+pub(super) fn problem(example: &Problem, description: &str) -> Response {
     let mut content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
     if example.kind() != ProblemKind::InvalidRequest {
         content = content.example(serde_json::to_value(example).ok());
     }
     let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content.build());
-    if example.kind() != ProblemKind::Overloaded {
+    if !matches!(example.kind(), ProblemKind::Overloaded | ProblemKind::StoreUnavailable) {
         return response.build();
     }
     let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();

@@ -5,6 +5,7 @@ mod app;
 mod body;
 mod docs;
 mod document;
+mod jobs;
 mod knowledge;
 mod log;
 mod patience;

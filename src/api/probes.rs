@@ -1,10 +1,12 @@
 //! `GET /livez`, `/readyz`, `/version`.
 
+use core::time::Duration;
 use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
 use serde::Serialize;
+use tokio::time::timeout;
 use utoipa::ToSchema;
 
 use crate::wire::{Problem, ProblemKind};
@@ -30,6 +32,9 @@ pub(super) struct VersionBody {
     version: &'static str,
 }
 
+/// How long the store of jobs may take to answer a probe; probes themselves wait for about a second.
+const STORE_PATIENCE: Duration = Duration::from_millis(500);
+
 const OK: Json<ProbeBody> = Json(ProbeBody { status: "ok" });
 
 /// Is the process alive?
@@ -44,17 +49,19 @@ pub(super) async fn livez() -> Json<ProbeBody> {
 
 /// Does the service take requests?
 ///
-/// It does not while it shuts down, or when a planning thread has died.
+/// It does not while it shuts down, when a planning thread has died, or as long as the store of jobs can't be reached.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "operation", responses(
     (status = 200, description = "It does.", body = ProbeBody, content_type = "application/json"),
     (status = 503, description = "It does not.", body = Problem, content_type = "application/problem+json",
      headers(("Retry-After" = u32, description = "When to ask again, s."))),
 ))]
 pub(super) async fn readyz(State(app): State<Arc<App>>) -> Result<Json<ProbeBody>, Problem> {
-    if app.ready() {
-        Ok(OK)
-    } else {
-        Err(Problem::new(ProblemKind::NotReady, "shutting down, or a planning thread died"))
+    if !app.ready() {
+        return Err(Problem::new(ProblemKind::NotReady, "shutting down, or a planning thread died"));
+    }
+    match timeout(STORE_PATIENCE, app.store.ping()).await {
+        Ok(Ok(())) => Ok(OK),
+        _ => Err(Problem::new(ProblemKind::StoreUnavailable, "the store of jobs does not answer")),
     }
 }
 
@@ -76,6 +83,12 @@ mod tests {
 
     use super::*;
     use crate::api::{Engine, ServerSettings, router};
+    use crate::jobs::JobSettings;
+
+    async fn started() -> Arc<App> {
+        let jobs = JobSettings { url: "sqlite::memory:".to_owned(), ..JobSettings::default() };
+        Arc::new(App::start(ServerSettings { jobs, ..ServerSettings::default() }, Engine::default()).await.unwrap())
+    }
 
     async fn ask(app: &Arc<App>) -> StatusCode {
         let request = Request::get("/readyz").body(Body::empty()).unwrap();
@@ -84,11 +97,11 @@ mod tests {
 
     #[tokio::test]
     async fn a_service_that_drains_or_lost_its_pool_is_not_ready() {
-        let app = Arc::new(App::new(ServerSettings::default(), Engine::default()).unwrap());
+        let app = started().await;
         assert_eq!(ask(&app).await, StatusCode::OK);
         app.drain();
         assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
-        let app = Arc::new(App::new(ServerSettings::default(), Engine::default()).unwrap());
+        let app = started().await;
         app.pool.close();
         assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
     }

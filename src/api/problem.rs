@@ -19,7 +19,9 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let extra: Option<(HeaderName, &'static str)> = match self.kind() {
-            ProblemKind::Overloaded | ProblemKind::NotReady => Some((header::RETRY_AFTER, RETRY_AFTER)),
+            ProblemKind::Overloaded | ProblemKind::NotReady | ProblemKind::StoreUnavailable => {
+                Some((header::RETRY_AFTER, RETRY_AFTER))
+            }
             // The rest of the body may still be on its way.
             ProblemKind::BodyTimeout | ProblemKind::BodyTooLarge => Some((header::CONNECTION, "close")),
             _ => None,

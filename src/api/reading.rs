@@ -7,7 +7,7 @@ use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
 /// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond. Larger ones are read by
 /// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
 /// glance must do, a millisecond for a megabyte.
-const SMALL_BODY: usize = 16 * 1024;
+pub(super) const SMALL_BODY: usize = 16 * 1024;
 
 /// Reads a body.
 pub(super) type Read<R> = fn(&[u8], &RequestLimits) -> Result<R, Problem>;

@@ -10,7 +10,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::app::App;
-use super::{docs, document, knowledge, log, plans, probes, problem, survey, verification};
+use super::{docs, document, jobs, knowledge, log, plans, probes, problem, survey, verification};
 
 /// The routes that the interface document describes.
 pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
@@ -19,6 +19,11 @@ pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(verification::verify))
         .routes(routes!(survey::survey))
         .routes(routes!(knowledge::knowledge))
+        .routes(routes!(jobs::submit, jobs::list))
+        .routes(routes!(jobs::batch))
+        .routes(routes!(jobs::show, jobs::forget))
+        .routes(routes!(jobs::events))
+        .routes(routes!(jobs::cancel))
         .routes(routes!(probes::livez))
         .routes(routes!(probes::readyz))
         .routes(routes!(probes::version))

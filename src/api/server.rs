@@ -15,6 +15,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::task::{JoinSet, spawn_blocking};
 use tokio::time::{sleep, timeout};
+use tokio_util::sync::CancellationToken;
 
 use super::app::App;
 use super::patience::PatientStream;
@@ -54,7 +55,9 @@ pub async fn run_with(
     engine: Engine,
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
-    let app = Arc::new(App::new(settings, engine)?);
+    let app = Arc::new(App::start(settings, engine).await?);
+    let over = CancellationToken::new();
+    let jobs = tokio::spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
     let mut connections = JoinSet::new();
     let graceful = GracefulShutdown::new();
     {
@@ -77,6 +80,8 @@ pub async fn run_with(
         tracing::warn!("some clients did not take their answers");
     }
     connections.shutdown().await;
+    over.cancel();
+    jobs.await.map_err(io::Error::other)?;
     // Every caller has gone, so whatever still runs is cancelled and ends soon.
     spawn_blocking(move || app.pool.join()).await.map_err(io::Error::other)
 }

@@ -21,6 +21,10 @@ pub struct ServerSettings {
     pub max_body_bytes: usize,
     /// Connections at a time; more wait to be accepted.
     pub connections: usize,
+    /// Clients that may wait for the ends of jobs at a time: each is a connection and some kB.
+    pub max_waiting: usize,
+    /// Clients that may listen to events at a time: each is a connection, and may hold up to a job's size.
+    pub max_streams: usize,
     /// How long a request's head may take, counted from its first byte; for the first request from the connection's start.
     pub header_timeout: Duration,
     /// How long a request's body may take.
@@ -38,6 +42,8 @@ impl Default for ServerSettings {
             queue: 64,
             max_body_bytes: 4_000_000,
             connections: 1024,
+            max_waiting: 1000,
+            max_streams: 1000,
             header_timeout: Duration::from_secs(5),
             body_timeout: Duration::from_secs(10),
             write_timeout: Duration::from_secs(30),

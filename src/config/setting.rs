@@ -125,6 +125,68 @@ pub static SETTINGS: &[Setting] = &[
         get: |config| config.server.write_timeout.as_millis().to_string(),
     },
     Setting {
+        name: "jobs_url",
+        scope: Scope::Service,
+        placeholder: "URL",
+        help: "Where jobs are kept: sqlite:PATH, sqlite::memory: or postgres://…",
+        set: |config, text| {
+            if !["sqlite:", "postgres:", "postgresql:"].iter().any(|scheme| text.starts_with(scheme)) {
+                return Err(format!("'{text}' begins with neither sqlite: nor postgres:"));
+            }
+            text.clone_into(&mut config.server.jobs.url);
+            Ok(())
+        },
+        get: |config| config.server.jobs.url.clone(),
+    },
+    Setting {
+        name: "job_threads",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Planning threads for jobs; one per core where nothing is said",
+        set: |config, text| count(text, 1, &mut config.server.jobs.threads),
+        get: |config| config.server.jobs.threads.to_string(),
+    },
+    Setting {
+        name: "max_queued_jobs",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Jobs that may wait in the store; more are refused with 503",
+        set: |config, text| count(text, 0, &mut config.server.jobs.max_queued),
+        get: |config| config.server.jobs.max_queued.to_string(),
+    },
+    Setting {
+        name: "job_lease_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "For how long a worker that says nothing keeps its job",
+        set: |config, text| milliseconds(text, &mut config.server.jobs.lease),
+        get: |config| config.server.jobs.lease.as_millis().to_string(),
+    },
+    Setting {
+        name: "job_ttl_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a job may wait, and for how long an ended one is kept",
+        set: |config, text| milliseconds(text, &mut config.server.jobs.ttl),
+        get: |config| config.server.jobs.ttl.as_millis().to_string(),
+    },
+    Setting {
+        name: "max_waiting",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Clients that may wait for the ends of jobs at a time",
+        set: |config, text| count(text, 0, &mut config.server.max_waiting),
+        get: |config| config.server.max_waiting.to_string(),
+    },
+    Setting {
+        name: "max_streams",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Clients that may listen to the events of jobs at a time",
+        set: |config, text| count(text, 0, &mut config.server.max_streams),
+        get: |config| config.server.max_streams.to_string(),
+    },
+    Setting {
         name: "max_objects",
         scope: Scope::Planning,
         placeholder: "N",

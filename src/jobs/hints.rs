@@ -53,7 +53,7 @@ impl Hints {
 
 impl Watcher {
     /// Done once the job may have changed since this was called; a look at the job goes between the call and the waiting.
-    pub fn changed(&self) -> impl Future<Output = ()> {
+    pub fn changed(&self) -> impl Future<Output = ()> + use<> {
         let mut notified = Box::pin(Arc::clone(&self.notify).notified_owned());
         notified.as_mut().enable();
         notified

@@ -126,7 +126,7 @@ pub struct NewJob {
     /// The planning request as JSON.
     pub body: Vec<u8>,
     /// Greater goes first.
-    pub priority: i32,
+    pub priority: i64,
     /// Who is told of its end.
     pub callback_url: Option<String>,
 }

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::problem::Problem;
 use super::reader::{Faults, Names, Node, parse};
-use super::request::{PlanRequest, RequestLimits, request};
+use super::request::{PlanRequest, REQUEST, RequestLimits, request};
 use crate::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use crate::scene::{COORDINATE_RANGE, Scene};
 
@@ -80,7 +80,7 @@ pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Claim, Problem> {
 
 fn verify(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<VerifyRequest> {
     let fields = node.fields(&VERIFY, faults)?;
-    let request = fields.required("scene", faults, |node, faults| request(node, limits, faults));
+    let request = fields.required("scene", faults, |node, faults| request(node, &REQUEST, limits, faults));
     let target = request.as_ref().map(|PlanRequest { scene, .. }| scene.object(scene.target()).id());
     let claim = fields.required("plan", faults, |node, faults| plan(node, target, faults));
     Some(VerifyRequest { claim: claim?, request: request? })

@@ -7,6 +7,8 @@ mod answer;
 mod claim;
 mod finding;
 mod glance;
+mod job;
+mod job_request;
 mod knowledge;
 mod problem;
 mod reader;
@@ -24,6 +26,8 @@ pub use answer::{
 };
 pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use glance::Glance;
+pub use job::{BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody};
+pub use job_request::{JobRequest, MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use problem::{ErrorItem, Problem, ProblemKind};
 pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};

@@ -59,6 +59,18 @@ pub enum ProblemKind {
     /// The head of the request is too large.
     #[serde(rename = "urn:singulate:problem:head_too_large")]
     HeadTooLarge,
+    /// The idempotency key came with another request before.
+    #[serde(rename = "urn:singulate:problem:key_reused")]
+    KeyReused,
+    /// The job has ended, so nothing is left to be cancelled.
+    #[serde(rename = "urn:singulate:problem:job_finished")]
+    JobFinished,
+    /// The job has not ended, so it can't be forgotten.
+    #[serde(rename = "urn:singulate:problem:job_unfinished")]
+    JobUnfinished,
+    /// The store of jobs can't be reached.
+    #[serde(rename = "urn:singulate:problem:store_unavailable")]
+    StoreUnavailable,
     /// Every thread is busy and the queue is full.
     #[serde(rename = "urn:singulate:problem:overloaded")]
     Overloaded,
@@ -87,10 +99,14 @@ impl ProblemKind {
             Self::BodyTooLarge => (413, "The body is too large"),
             Self::UnsupportedMediaType => (415, "The body must be JSON"),
             Self::InvalidRequest => (422, "The request is invalid"),
+            Self::KeyReused => (422, "The idempotency key belongs to another request"),
+            Self::JobFinished => (409, "The job has ended"),
+            Self::JobUnfinished => (409, "The job has not ended"),
             Self::UriTooLong => (414, "The path is too long"),
             Self::HeadTooLarge => (431, "The head is too large"),
             Self::CheckFailed => (500, "The answer did not pass its check"),
             Self::Internal => (500, "Internal error"),
+            Self::StoreUnavailable => (503, "The store of jobs is unavailable"),
             Self::Overloaded => (503, "Overloaded"),
             Self::NotReady => (503, "Not ready"),
         }
@@ -129,7 +145,7 @@ impl Problem {
     }
 
     /// A body with these faults.
-    pub(super) fn invalid(errors: Vec<ErrorItem>) -> Self {
+    pub fn invalid(errors: Vec<ErrorItem>) -> Self {
         let detail = if errors.len() == 1 { "1 fault".to_owned() } else { format!("{} faults", errors.len()) };
         Self::new(ProblemKind::InvalidRequest, detail).with_errors(errors)
     }

@@ -142,19 +142,25 @@ impl<'a> Node<'a> {
     }
 
     /// A whole number from `min` to `max`; 3.0 is one.
-    pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut Faults) -> Option<u64> {
+    pub(super) fn integer(&self, (min, max): (i64, i64), faults: &mut Faults) -> Option<i64> {
         let value = self.number(faults)?;
         if value.fract() != 0.0 {
             faults.add("not_whole", self.path, format_args!("{value} is not a whole number"));
             return None;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number; `as` saturates")]
-        let whole = value as u64;
-        if value < 0.0 || !(min..=max).contains(&whole) {
+        #[expect(clippy::cast_possible_truncation, reason = "a whole number; `as` saturates")]
+        let integer = value as i64;
+        if !(min..=max).contains(&integer) {
             faults.add("out_of_range", self.path, format_args!("{value} is not between {min} and {max}"));
             return None;
         }
-        Some(whole)
+        Some(integer)
+    }
+
+    /// A whole number that is not negative.
+    pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut Faults) -> Option<u64> {
+        let bound = |bound| i64::try_from(bound).unwrap_or(i64::MAX);
+        self.integer((bound(min), bound(max)), faults).and_then(|value| u64::try_from(value).ok())
     }
 
     pub(super) fn boolean(&self, faults: &mut Faults) -> Option<bool> {

@@ -65,19 +65,25 @@ impl AsRef<PlanRequest> for PlanRequest {
 pub fn read_scene(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
     let value = parse(body)?;
     let mut faults = Faults::default();
-    let request = request(Node::root(&value), limits, &mut faults);
+    let request = request(Node::root(&value), &REQUEST, limits, &mut faults);
     faults.judge(request)
 }
 
-const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
+pub(super) const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
 const TABLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
 const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
 const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
 // A later version may know objects that are no discs.
 const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
 
-pub(super) fn request(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
-    let fields = node.fields(&REQUEST, faults)?;
+/// A planning request, whose own fields stand among `names`.
+pub(super) fn request(
+    node: Node<'_>,
+    names: &Names,
+    limits: &RequestLimits,
+    faults: &mut Faults,
+) -> Option<PlanRequest> {
+    let fields = node.fields(names, faults)?;
     let scene_id = fields.optional("scene_id", None, faults, scene_id);
     let table = fields.required("table", faults, table);
     let gripper = fields.required("gripper", faults, gripper);

@@ -5,5 +5,5 @@ mod pending;
 mod pool;
 
 pub use engine::Engine;
-pub use pending::{Outcome, Pending};
+pub use pending::{Ender, Outcome, Pending};
 pub use pool::{Pool, Refused};

@@ -35,6 +35,19 @@ pub struct Pending<T> {
     reply: oneshot::Receiver<Outcome<T>>,
 }
 
+/// Ends a computation early, with the best so far.
+#[derive(Debug, Clone)]
+pub struct Ender {
+    ticket: Arc<Ticket>,
+}
+
+impl Ender {
+    /// Let it deliver the best so far.
+    pub fn finish_soon(&self) {
+        self.ticket.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
 /// What the caller and the thread share about one job.
 #[derive(Debug)]
 pub(super) struct Ticket {
@@ -81,6 +94,11 @@ impl Clock for Ticket {
 }
 
 impl<T> Pending<T> {
+    /// The means to end the computation while somebody waits for it.
+    pub fn ender(&self) -> Ender {
+        Ender { ticket: Arc::clone(&self.ticket) }
+    }
+
     pub(super) fn new(ticket: Arc<Ticket>, reply: oneshot::Receiver<Outcome<T>>) -> Self {
         Self { ticket, reply }
     }

@@ -8,6 +8,10 @@ use std::net::TcpStream;
 use serde_json::{Value, json};
 use singulate::api::server::run_with;
 use singulate::api::{Engine, ServerSettings};
+use singulate::budget::Budget;
+use singulate::jobs::JobSettings;
+use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate::scene::Scene;
 use tokio::net::TcpListener;
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
@@ -28,7 +32,11 @@ impl Host {
         Self::with(ServerSettings::default(), Engine::default()).await
     }
 
-    pub(crate) async fn with(settings: ServerSettings, engine: Engine) -> Self {
+    /// Jobs are kept in memory, unless the settings say otherwise.
+    pub(crate) async fn with(mut settings: ServerSettings, engine: Engine) -> Self {
+        if settings.jobs.url == JobSettings::default().url {
+            settings.jobs.url = "sqlite::memory:".to_owned();
+        }
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = listener.local_addr().unwrap();
         let (stop, stopped) = oneshot::channel();
@@ -124,6 +132,18 @@ pub(crate) async fn read_to_end(mut stream: TcpStream) -> String {
         String::from_utf8_lossy(&bytes).into_owned()
     });
     reading.await.unwrap()
+}
+
+/// A planner that goes on until its budget ends.
+pub(crate) fn endless() -> Engine {
+    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+        while budget.check().is_ok() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let verdict = Verdict::TimedOut(Unplanned::default());
+        Ok(Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
+    }
+    Engine { plan, ..Engine::default() }
 }
 
 pub(crate) async fn wait_until(mut condition: impl FnMut() -> bool) {

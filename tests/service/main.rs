@@ -8,6 +8,7 @@ mod document;
 mod golden;
 mod haste;
 mod host;
+mod jobs;
 mod knowledge;
 mod negotiation;
 mod planning;

@@ -1,0 +1,123 @@
+//! All jobs of a caller: new ones, several at once, and the list.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::Json;
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::Request;
+use axum::response::Response;
+
+use super::accepted::accepted;
+use super::problems::{JobProblems, not_accepted, unavailable};
+use super::query::Parameters;
+use super::submission::{key, new_jobs};
+use crate::api::app::App;
+use crate::api::document::RequestProblems;
+use crate::api::reading::Read;
+use crate::api::{body, log};
+use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
+use crate::wire::{BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, read_batch, read_job};
+
+/// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
+const MAX_PAGE: u64 = 100;
+const DEFAULT_PAGE: u64 = 20;
+
+/// Plan later
+///
+/// Accepts a scene and returns at once; the job is on disk by then. With an `Idempotency-Key` the same request can be
+/// repeated and is accepted once, as long as the job is kept.
+#[utoipa::path(
+    post,
+    path = "/v1/jobs",
+    operation_id = "submit_job",
+    tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header, max_length = 255,
+        description = "The caller's name for the request; with the same body it is the same job.")),
+    request_body(content = JobSceneBody, content_type = "application/json", description = "The scene and how to plan."),
+    responses(
+        (status = 202, description = "The job.", body = JobBody, content_type = "application/json",
+         headers(("Location" = String, description = "Where the job is."),
+                 ("Retry-After" = u32, description = "When to look, s."))),
+        RequestProblems,
+    )
+)]
+pub(in crate::api) async fn submit(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+    let read: Read<Vec<JobRequest>> = |body, limits| Ok(vec![read_job(body, limits)?]);
+    let jobs = take(&app, request, read).await?;
+    let job = jobs.first().ok_or_else(crate::api::problem::internal)?;
+    Ok(accepted(Some(job.id), job.body()))
+}
+
+/// Plan several scenes later
+///
+/// All are accepted, or none. An `Idempotency-Key` names the request as a whole.
+#[utoipa::path(
+    post,
+    path = "/v1/jobs/batch",
+    operation_id = "submit_jobs",
+    tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header, max_length = 255,
+        description = "The caller's name for the request; with the same body it is the same jobs.")),
+    request_body(content = BatchBody, content_type = "application/json", description = "The scenes."),
+    responses(
+        (status = 202, description = "The jobs, in the order of the scenes.", body = JobsBody,
+         content_type = "application/json", headers(("Retry-After" = u32, description = "When to look, s."))),
+        RequestProblems,
+    )
+)]
+pub(in crate::api) async fn batch(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+    let jobs = take(&app, request, read_batch).await?;
+    Ok(accepted(None, JobsBody { jobs: jobs.iter().map(Job::body).collect() }))
+}
+
+/// The jobs
+///
+/// The caller's own, the latest first, without their results.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs",
+    operation_id = "list_jobs",
+    tag = "jobs",
+    params(
+        ("state" = Option<crate::wire::JobStateWord>, Query, description = "Only those in this state."),
+        ("cursor" = Option<String>, Query, description = "The `next_cursor` of the page before."),
+        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "At most so many; 20 where absent."),
+    ),
+    responses(
+        (status = 200, description = "One page.", body = JobListBody, content_type = "application/json"),
+        JobProblems,
+    )
+)]
+pub(in crate::api) async fn list(
+    State(app): State<Arc<App>>,
+    parameters: Parameters,
+) -> Result<Json<JobListBody>, Problem> {
+    let parameters = parameters.only(&["state", "cursor", "limit"])?;
+    let states = JobState::ALL.map(JobState::as_str).join(", ");
+    let state = parameters.read("state", format_args!("one of {states}"), |text| text.parse().ok())?;
+    let before = parameters.read("cursor", "the `next_cursor` of the page before", |text| text.parse().ok())?;
+    let limit = parameters.number("limit", 1..=MAX_PAGE)?.unwrap_or(DEFAULT_PAGE);
+    let limit = usize::try_from(limit).unwrap_or(usize::MAX);
+    // One more tells whether there are more.
+    let page = Page { state, before, limit: limit + 1 };
+    let jobs = app.store.list(&Owner::anonymous(), page).await.map_err(|error| unavailable(&error))?;
+    let next_cursor = (jobs.len() > limit).then(|| jobs[limit - 1].id.to_string());
+    Ok(Json(JobListBody { jobs: jobs.iter().take(limit).map(Job::body).collect(), next_cursor }))
+}
+
+/// The jobs that a body asks for, kept by the store.
+async fn take(app: &Arc<App>, request: Request<Body>, read: Read<Vec<JobRequest>>) -> Result<Vec<Job>, Problem> {
+    let arrival = Instant::now();
+    let key = key(request.headers())?;
+    let body = body::receive(request, &app.settings).await?;
+    let owner = Owner::anonymous();
+    let jobs = app
+        .read(arrival, body, move |body, limits| Ok(new_jobs(read(body, limits)?, body, &owner, key.as_deref())))
+        .await?;
+    if let [job] = &jobs[..] {
+        log::note_scene(job.scene_id.as_deref());
+    }
+    app.store.submit(&jobs, Timestamp::now()).await.map_err(not_accepted)
+}

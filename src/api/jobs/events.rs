@@ -1,0 +1,125 @@
+//! `GET /v1/jobs/{id}/events`: what happens to a job, as it happens.
+
+use core::convert::Infallible;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use axum::extract::{Path, State};
+use axum::http::{HeaderMap, HeaderName, StatusCode};
+use axum::response::sse::{Event as Message, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use futures_util::stream::{Stream, unfold};
+use tokio::sync::OwnedSemaphorePermit;
+use tokio::time::sleep;
+
+use super::one::{LOOK_AGAIN, find};
+use super::problems::{OneJobProblems, job_id};
+use crate::api::app::App;
+use crate::jobs::{Job, JobId, Owner, Watcher};
+use crate::wire::{JobBody, Problem, ProblemKind};
+
+const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
+
+/// What happens to a job
+///
+/// Server-sent events `queued`, `running`, `incumbent` and `finished`, from the first on; the data is the job as it stood
+/// then. The stream ends with `finished`, or with `draining` where the service shuts down: come again with
+/// `Last-Event-ID`, at any server. 204 where nothing more will come.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/events",
+    operation_id = "job_events",
+    tag = "jobs",
+    params(
+        ("id" = String, Path, description = "The job."),
+        ("Last-Event-ID" = Option<String>, Header, description = "The last event that was received; only later ones come."),
+    ),
+    responses(
+        (status = 200, description = "The events.", body = JobBody, content_type = "text/event-stream"),
+        (status = 204, description = "The job has ended, and all its events were received."),
+        OneJobProblems,
+    )
+)]
+pub(in crate::api) async fn events(
+    State(app): State<Arc<App>>,
+    Path(id): Path<String>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let id = job_id(&id)?;
+    // A name that no event of ours has begins anew.
+    let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok()).unwrap_or_default();
+    let job = find(&app, id).await?;
+    if job.state.finished() && seen >= job.events.len() {
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    let slot = Arc::clone(&app.streams).try_acquire_owned().map_err(|_| {
+        Problem::new(ProblemKind::Overloaded, "as many clients listen to jobs as may; ask for the job instead")
+    })?;
+    let listener = Listener::new(app, id, seen, slot);
+    Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
+}
+
+/// One client on its way through a job's events.
+struct Listener {
+    app: Arc<App>,
+    id: JobId,
+    watcher: Watcher,
+    /// How many events it has seen.
+    seen: usize,
+    /// What it is to see next.
+    ready: VecDeque<Message>,
+    over: bool,
+    _slot: OwnedSemaphorePermit,
+}
+
+impl Listener {
+    fn new(app: Arc<App>, id: JobId, seen: usize, slot: OwnedSemaphorePermit) -> Self {
+        let watcher = app.store.hints().watch(id);
+        Self { app, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot }
+    }
+
+    fn messages(self) -> impl Stream<Item = Result<Message, Infallible>> {
+        unfold(self, async |mut listener| {
+            let message = listener.next().await?;
+            Some((Ok(message), listener))
+        })
+    }
+
+    async fn next(&mut self) -> Option<Message> {
+        loop {
+            if let Some(message) = self.ready.pop_front() {
+                return Some(message);
+            }
+            if self.over {
+                return None;
+            }
+            let changed = self.watcher.changed();
+            match self.app.store.get(&Owner::anonymous(), self.id).await {
+                Ok(Some(job)) => self.take(&job),
+                Ok(None) => self.over = true,
+                // The store may be back soon.
+                Err(error) => tracing::debug!(%error, "an event stream waits for the store"),
+            }
+            if self.ready.is_empty() && !self.over {
+                tokio::select! {
+                    () = changed => {}
+                    () = sleep(LOOK_AGAIN) => {}
+                    () = self.app.draining.cancelled() => {
+                        self.ready.push_back(Message::default().event("draining").data("{}"));
+                        self.over = true;
+                    }
+                }
+            }
+        }
+    }
+
+    fn take(&mut self, job: &Job) {
+        for (at, event) in job.events.iter().enumerate().skip(self.seen) {
+            let message = Message::default().id((at + 1).to_string()).event(event.kind.as_str());
+            let data = serde_json::to_string(&job.as_of(event).body()).unwrap_or_default();
+            self.ready.push_back(message.data(data));
+        }
+        self.seen = self.seen.max(job.events.len());
+        self.over = job.state.finished();
+    }
+}

@@ -1,0 +1,133 @@
+//! One job: how it stands, and away with it.
+
+use core::time::Duration;
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::Json;
+use axum::extract::{Path, State};
+use axum::http::StatusCode;
+use axum::response::Response;
+use tokio::time::sleep;
+
+use super::accepted::accepted;
+use super::problems::{OneJobProblems, job_id, no_such_job, unavailable};
+use super::query::Parameters;
+use crate::api::app::App;
+use crate::jobs::{Cancellation, Job, JobId, Owner, Removal, Timestamp};
+use crate::wire::{JobBody, Problem, ProblemKind};
+
+/// The longest wait, ms: what proxies and clients bear.
+const MAX_WAIT_MS: u64 = 60_000;
+/// How often whoever waits looks without a hint: those of other servers may be lost.
+pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(1);
+
+/// How does a job stand?
+///
+/// With `wait_ms` the answer waits until the job has ended, but not longer.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}",
+    operation_id = "show_job",
+    tag = "jobs",
+    params(
+        ("id" = String, Path, description = "The job."),
+        ("wait_ms" = Option<u32>, Query, minimum = 0, maximum = 60000, description = "How long to wait for its end, ms."),
+    ),
+    responses(
+        (status = 200, description = "The job.", body = JobBody, content_type = "application/json"),
+        OneJobProblems,
+    )
+)]
+pub(in crate::api) async fn show(
+    State(app): State<Arc<App>>,
+    Path(id): Path<String>,
+    parameters: Parameters,
+) -> Result<Json<JobBody>, Problem> {
+    let id = job_id(&id)?;
+    let wait = parameters.only(&["wait_ms"])?.number("wait_ms", 0..=MAX_WAIT_MS)?.unwrap_or_default();
+    let job = if wait == 0 { find(&app, id).await? } else { wait_for(&app, id, Duration::from_millis(wait)).await? };
+    Ok(Json(job.body()))
+}
+
+/// Cancel a job
+///
+/// A queued job is cancelled at once; one that runs stops and keeps the best so far as its result.
+#[utoipa::path(
+    post,
+    path = "/v1/jobs/{id}/cancel",
+    operation_id = "cancel_job",
+    tag = "jobs",
+    params(("id" = String, Path, description = "The job.")),
+    responses(
+        (status = 202, description = "It is cancelled, or will be at once.", body = JobBody,
+         content_type = "application/json"),
+        (status = 409, description = "It had ended before.", body = Problem, content_type = "application/problem+json"),
+        OneJobProblems,
+    )
+)]
+pub(in crate::api) async fn cancel(State(app): State<Arc<App>>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let id = job_id(&id)?;
+    let cancelled = app.store.cancel(&Owner::anonymous(), id, Timestamp::now()).await;
+    match cancelled.map_err(|error| unavailable(&error))? {
+        Cancellation::Unknown => Err(no_such_job()),
+        Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
+        Cancellation::Accepted(job) => {
+            app.runner.end_soon(id);
+            Ok(accepted(Some(id), job.body()))
+        }
+    }
+}
+
+/// Forget a job
+///
+/// The job, its result and its idempotency key are gone. It must have ended.
+#[utoipa::path(
+    delete,
+    path = "/v1/jobs/{id}",
+    operation_id = "forget_job",
+    tag = "jobs",
+    params(("id" = String, Path, description = "The job.")),
+    responses(
+        (status = 204, description = "It is forgotten."),
+        (status = 409, description = "It has not ended; cancel it first.", body = Problem,
+         content_type = "application/problem+json"),
+        OneJobProblems,
+    )
+)]
+pub(in crate::api) async fn forget(State(app): State<Arc<App>>, Path(id): Path<String>) -> Result<StatusCode, Problem> {
+    let removal = app.store.forget(&Owner::anonymous(), job_id(&id)?).await;
+    match removal.map_err(|error| unavailable(&error))? {
+        Removal::Unknown => Err(no_such_job()),
+        Removal::Unfinished => Err(Problem::new(ProblemKind::JobUnfinished, "cancel it first")),
+        Removal::Forgotten => Ok(StatusCode::NO_CONTENT),
+    }
+}
+
+/// A job of the caller's.
+pub(super) async fn find(app: &App, id: JobId) -> Result<Job, Problem> {
+    let found = app.store.get(&Owner::anonymous(), id).await;
+    found.map_err(|error| unavailable(&error))?.ok_or_else(no_such_job)
+}
+
+/// The job once it has ended, or as it stands when the time is over or the service shuts down.
+async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> {
+    let started = Instant::now();
+    let _waiting = app.waiting.try_acquire().map_err(|_| {
+        Problem::new(ProblemKind::Overloaded, "as many clients wait for jobs as may; ask without waiting")
+    })?;
+    let watcher = app.store.hints().watch(id);
+    loop {
+        let changed = watcher.changed();
+        let job = find(app, id).await?;
+        let left = wait.saturating_sub(started.elapsed());
+        if job.state.finished() || left.is_zero() || app.draining.is_cancelled() {
+            return Ok(job);
+        }
+        tokio::select! {
+            () = changed => {}
+            () = sleep(left.min(LOOK_AGAIN)) => {}
+            () = app.draining.cancelled() => {}
+        }
+    }
+}

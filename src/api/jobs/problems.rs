@@ -1,0 +1,62 @@
+//! What can be wrong with a request about jobs.
+
+use std::collections::BTreeMap;
+
+use utoipa::IntoResponses;
+use utoipa::openapi::{RefOr, Response};
+
+use crate::api::document::problem;
+use crate::jobs::{JobId, StoreError, SubmitError};
+use crate::wire::{Problem, ProblemKind};
+
+/// The store failed.
+pub(super) fn unavailable(error: &StoreError) -> Problem {
+    tracing::warn!(%error, "a request was not answered");
+    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
+}
+
+/// Jobs were not accepted.
+pub(super) fn not_accepted(error: SubmitError) -> Problem {
+    match error {
+        SubmitError::Full => Problem::new(ProblemKind::Overloaded, "as many jobs wait as may"),
+        SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
+        SubmitError::Store(error) => unavailable(&error),
+    }
+}
+
+/// There is no such job.
+pub(super) fn no_such_job() -> Problem {
+    Problem::new(ProblemKind::NotFound, "there is no job of this name, or no longer")
+}
+
+/// A job's name in a path.
+///
+/// # Errors
+/// What is no name is the name of no job.
+pub(super) fn job_id(text: &str) -> Result<JobId, Problem> {
+    text.parse().map_err(|_| no_such_job())
+}
+
+/// The problems of every request for something about jobs.
+pub(super) struct JobProblems;
+
+impl IntoResponses for JobProblems {
+    fn responses() -> BTreeMap<String, RefOr<Response>> {
+        let unavailable =
+            Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again");
+        let unavailable = problem(&unavailable, "The store of jobs can't be reached, or too many clients wait.");
+        let invalid = problem(&Problem::invalid(Vec::new()), "A parameter is unknown or out of range.");
+        BTreeMap::from([("503".to_owned(), unavailable.into()), ("422".to_owned(), invalid.into())])
+    }
+}
+
+/// The problems of a request about one job.
+pub(super) struct OneJobProblems;
+
+impl IntoResponses for OneJobProblems {
+    fn responses() -> BTreeMap<String, RefOr<Response>> {
+        let mut responses = JobProblems::responses();
+        responses.insert("404".to_owned(), problem(&no_such_job(), "There is no such job.").into());
+        responses
+    }
+}

@@ -1,0 +1,68 @@
+//! The part of a path behind the question mark.
+
+use core::fmt::Display;
+use core::ops::RangeInclusive;
+
+use axum::extract::{FromRequestParts, Query};
+use axum::http::request::Parts;
+
+use crate::wire::{ErrorItem, Problem, ProblemKind};
+
+/// The parameters of a request, in order.
+pub(in crate::api) struct Parameters(Vec<(String, String)>);
+
+impl<S: Send + Sync> FromRequestParts<S> for Parameters {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let Query(list) = Query::from_request_parts(parts, state)
+            .await
+            .map_err(|error| Problem::new(ProblemKind::InvalidRequest, error.to_string()))?;
+        Ok(Self(list))
+    }
+}
+
+impl Parameters {
+    /// # Errors
+    /// A problem if there are others than these, or one twice.
+    pub(super) fn only(self, names: &[&str]) -> Result<Self, Problem> {
+        for (at, (name, _)) in self.0.iter().enumerate() {
+            if !names.contains(&name.as_str()) {
+                return Err(invalid("unknown_parameter", format_args!("'{name}'; known here: {}", names.join(", "))));
+            }
+            if self.0[..at].iter().any(|(other, _)| other == name) {
+                return Err(invalid("repeated_parameter", format_args!("'{name}' is there twice")));
+            }
+        }
+        Ok(self)
+    }
+
+    /// A parameter, read as `read` does.
+    ///
+    /// # Errors
+    /// A problem that names what was expected.
+    pub(super) fn read<T>(
+        &self,
+        name: &str,
+        expected: impl Display,
+        read: impl FnOnce(&str) -> Option<T>,
+    ) -> Result<Option<T>, Problem> {
+        let Some((_, text)) = self.0.iter().find(|(other, _)| other == name) else { return Ok(None) };
+        read(text)
+            .map(Some)
+            .ok_or_else(|| invalid("out_of_range", format_args!("the parameter '{name}' is to be {expected}")))
+    }
+
+    /// A whole number.
+    ///
+    /// # Errors
+    /// A problem if it is none, or outside the range.
+    pub(super) fn number(&self, name: &str, range: RangeInclusive<u64>) -> Result<Option<u64>, Problem> {
+        let expected = format!("a whole number from {} to {}", range.start(), range.end());
+        self.read(name, expected, |text| text.parse().ok().filter(|number| range.contains(number)))
+    }
+}
+
+fn invalid(code: &'static str, detail: core::fmt::Arguments<'_>) -> Problem {
+    Problem::invalid(vec![ErrorItem { code, pointer: String::new(), detail: detail.to_string() }])
+}

@@ -1,0 +1,110 @@
+//! A job that this server holds: its lease is kept, its best is told, its end is kept.
+
+use core::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tokio::sync::watch;
+use tokio::time::{MissedTickBehavior, interval, sleep};
+use tokio_util::sync::CancellationToken;
+
+use super::job::End;
+use super::pause::Pause;
+use super::store::{Claim, Renewal, Store, StoreError};
+use super::timestamp::Timestamp;
+use crate::budget::Incumbent;
+
+/// The least time between two notes of the best so far: nobody reads faster, and each is a write.
+const NOTE_EVERY: Duration = Duration::from_millis(100);
+
+/// A claimed job.
+pub(super) struct Held {
+    store: Arc<dyn Store>,
+    claim: Claim,
+    lease: Duration,
+    /// The best that the store knows.
+    noted: Mutex<Option<Incumbent>>,
+}
+
+impl Held {
+    pub(super) fn new(store: Arc<dyn Store>, claim: Claim, lease: Duration) -> Self {
+        Self { store, claim, lease, noted: Mutex::default() }
+    }
+
+    /// Keeps the lease and passes on what is known; calls `cancelled` once the caller wants no more. Done once the lease is
+    /// lost.
+    pub(super) async fn keep(&self, incumbent: &mut watch::Receiver<Option<Incumbent>>, cancelled: impl Fn()) {
+        let watcher = self.store.hints().watch(self.claim.id);
+        let mut renewal = interval(self.lease / 3);
+        renewal.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        // The first tick is at once, and the lease is new.
+        renewal.tick().await;
+        let mut told = true;
+        loop {
+            let changed = watcher.changed();
+            let renewed = tokio::select! {
+                _ = renewal.tick() => self.renew().await,
+                // Perhaps it was cancelled.
+                () = changed => self.renew().await,
+                news = incumbent.changed(), if told => {
+                    told = news.is_ok();
+                    let best = *incumbent.borrow_and_update();
+                    let noted = self.note(best).await;
+                    sleep(NOTE_EVERY).await;
+                    noted.map(|held| if held { Renewal::Held } else { Renewal::Lost })
+                }
+            };
+            match renewed {
+                Ok(Renewal::Held) => {}
+                Ok(Renewal::Cancelled) => cancelled(),
+                Ok(Renewal::Lost) => return self.warn("the lease is lost", None),
+                // Planning goes on: the lease may hold until the store is back.
+                Err(error) => self.warn("the lease could not be renewed", Some(&error)),
+            }
+        }
+    }
+
+    /// Keep the end, however long the store is away, until the server has no more time.
+    pub(super) async fn finish(&self, best: Option<Incumbent>, end: &End, over: &CancellationToken) {
+        let mut pause = Pause::default();
+        loop {
+            match self.try_finish(best, end).await {
+                Ok(true) => return,
+                Ok(false) => return self.warn("the lease was lost before the end was kept", None),
+                Err(error) => self.warn("the end could not be kept yet", Some(&error)),
+            }
+            if over.run_until_cancelled(pause.pass()).await.is_none() {
+                return self.warn("the end is lost, the job will run again", None);
+            }
+        }
+    }
+
+    /// Queue the job again, as if nobody had begun.
+    pub(super) async fn hand_back(&self) {
+        if let Err(error) = self.store.hand_back(self.claim, Timestamp::now()).await {
+            self.warn("the job could not be handed back; its lease will end", Some(&error));
+        }
+    }
+
+    async fn renew(&self) -> Result<Renewal, StoreError> {
+        self.store.renew(self.claim, Timestamp::now()).await
+    }
+
+    async fn note(&self, best: Option<Incumbent>) -> Result<bool, StoreError> {
+        // No invariant of a copied value can be broken by a panic.
+        let noted = || self.noted.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(news) = best.filter(|best| *noted() != Some(*best)) else { return Ok(true) };
+        let held = self.store.note(self.claim, news, Timestamp::now()).await?;
+        *noted() = best;
+        Ok(held)
+    }
+
+    async fn try_finish(&self, best: Option<Incumbent>, end: &End) -> Result<bool, StoreError> {
+        self.note(best).await?;
+        self.store.finish(self.claim, end, Timestamp::now()).await
+    }
+
+    fn warn(&self, what: &str, error: Option<&StoreError>) {
+        let error = error.map(tracing::field::display);
+        tracing::warn!(job = %self.claim.id, error, "{what}");
+    }
+}

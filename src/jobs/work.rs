@@ -1,0 +1,93 @@
+//! One claimed job on its way through a worker.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use serde::Serialize;
+use tokio::sync::watch;
+
+use super::job::End;
+use crate::budget::{Budget, Incumbent};
+use crate::wire::{AnswerBody, Glance, Problem, ProblemKind, RequestLimits, read_job};
+use crate::workers::{Ender, Engine, Outcome, Pending, Pool, Refused};
+
+/// What a worker needs besides the job.
+#[derive(Clone, Copy)]
+pub(super) struct Tools {
+    pub(super) engine: Engine,
+    pub(super) limits: RequestLimits,
+}
+
+/// A job that a worker has.
+pub(super) struct Work {
+    pending: Pending<Result<String, Problem>>,
+    body: Arc<Vec<u8>>,
+    glance: Glance,
+}
+
+impl Work {
+    /// Begin. The time limit counts from now; the best so far is told to `watcher`.
+    ///
+    /// # Errors
+    /// [`Refused`] if every worker is busy.
+    pub(super) fn begin(
+        body: Vec<u8>,
+        pool: &Pool,
+        tools: Tools,
+        watcher: watch::Sender<Option<Incumbent>>,
+    ) -> Result<Self, Refused> {
+        let (arrival, body) = (Instant::now(), Arc::new(body));
+        let glance = Glance::at(&body, &tools.limits);
+        let own = Arc::clone(&body);
+        let job = move |budget: &Budget<'_>| {
+            let observer = |incumbent| {
+                watcher.send_if_modified(|last| last.replace(incumbent) != Some(incumbent));
+            };
+            plan(&own, tools, &budget.observed(&observer))
+        };
+        let pending = pool.submit(arrival, glance.time_limit, job)?;
+        Ok(Self { pending, body, glance })
+    }
+
+    /// The means to end it early.
+    pub(super) fn ender(&self) -> Ender {
+        self.pending.ender()
+    }
+
+    /// How the job ends.
+    pub(super) async fn end(self) -> End {
+        let ended = match self.pending.outcome().await {
+            Outcome::Done(answer) => answer,
+            // Only a planner that forgets the time is not waited for; nothing of what it knows is at hand.
+            Outcome::TimedOut => AnswerBody::unread(&self.glance).ok_or_else(internal).and_then(|body| written(&body)),
+            Outcome::Panicked => {
+                tracing::error!(scene = %String::from_utf8_lossy(&self.body), "planning panicked");
+                Err(internal())
+            }
+        };
+        ended.map_or_else(|problem| failed(&problem), End::Succeeded)
+    }
+}
+
+fn plan(body: &[u8], tools: Tools, budget: &Budget<'_>) -> Result<String, Problem> {
+    // It was read before it was accepted; but that may have been another version, with other limits.
+    let request = read_job(body, &tools.limits)?.plan;
+    let answer = tools.engine.answer(&request, budget)?;
+    written(&AnswerBody::new(&request, &answer))
+}
+
+fn written(body: &impl Serialize) -> Result<String, Problem> {
+    serde_json::to_string(body).map_err(|error| {
+        tracing::error!(%error, "an answer could not be written");
+        internal()
+    })
+}
+
+fn failed(problem: &Problem) -> End {
+    // A problem is made of strings and numbers.
+    End::Failed(serde_json::to_string(problem).unwrap_or_default())
+}
+
+fn internal() -> Problem {
+    Problem::new(ProblemKind::Internal, "the job could not be planned")
+}

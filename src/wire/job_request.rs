@@ -1,0 +1,99 @@
+//! Requests for jobs read from JSON.
+
+use serde_json::Value;
+
+use super::problem::Problem;
+use super::reader::{Faults, Names, Node, parse};
+use super::request::{PlanRequest, RequestLimits, request};
+
+/// The most scenes of one batch. More of them would be more than one transaction should hold others up for.
+pub const MAX_BATCH: usize = 100;
+/// The longest URL of a callback, characters: what all servers take.
+pub const MAX_CALLBACK_URL_LENGTH: usize = 2000;
+/// The least and the greatest priority.
+pub const PRIORITY_RANGE: (i64, i64) = (-100, 100);
+
+/// A checked request for a job.
+#[derive(Debug, Clone)]
+pub struct JobRequest {
+    /// What is to be planned.
+    pub plan: PlanRequest,
+    /// Who is to be told of the end; whether it may be told is not checked yet.
+    pub callback_url: Option<String>,
+    /// Greater goes first.
+    pub priority: i64,
+    /// The same request as JSON.
+    pub body: Vec<u8>,
+}
+
+/// A planning request's fields and two more.
+const JOB: Names =
+    Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings", "callback_url", "priority"]);
+const BATCH: Names = Names::of(&["scenes"]);
+
+/// Read a request for one job.
+///
+/// # Errors
+/// A problem with every fault of the body.
+pub fn read_job(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
+    let value = parse(body)?;
+    let mut faults = Faults::default();
+    let read = job(Node::root(&value), limits, &mut faults);
+    faults.judge(read.map(|job| JobRequest { body: body.to_owned(), ..job }))
+}
+
+/// Read a request for several jobs.
+///
+/// # Errors
+/// A problem with every fault of the body.
+pub fn read_batch(body: &[u8], limits: &RequestLimits) -> Result<Vec<JobRequest>, Problem> {
+    let value = parse(body)?;
+    let mut faults = Faults::default();
+    let read = batch(Node::root(&value), limits, &mut faults);
+    let jobs = faults.judge(read)?;
+    let scenes = value.get("scenes").and_then(Value::as_array).into_iter().flatten();
+    // What was just read can be written.
+    Ok(jobs
+        .into_iter()
+        .zip(scenes)
+        .map(|(job, scene)| JobRequest { body: scene.to_string().into_bytes(), ..job })
+        .collect())
+}
+
+fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<JobRequest>> {
+    let fields = node.fields(&BATCH, faults)?;
+    fields.required("scenes", faults, |node, faults| {
+        let count = node.length();
+        if count > MAX_BATCH {
+            let detail = format_args!("a batch has at most {MAX_BATCH} scenes, this one has {count}");
+            faults.add("too_many_scenes", node.path(), detail);
+            return None;
+        }
+        let jobs = node.list(faults, |node, faults| Some(job(node, limits, faults)))?;
+        if jobs.is_empty() {
+            faults.add("too_few_scenes", node.path(), format_args!("a batch has at least one scene"));
+        }
+        jobs.into_iter().collect()
+    })
+}
+
+fn job(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<JobRequest> {
+    let plan = request(node, &JOB, limits, faults);
+    // What is wrong with the fields as a whole has been noted.
+    let fields = node.fields(&JOB, &mut Faults::default())?;
+    let callback_url =
+        fields.optional("callback_url", None, faults, |node, faults| callback_url(node, faults).map(Some));
+    let priority = fields.optional("priority", 0, faults, |node, faults| node.integer(PRIORITY_RANGE, faults));
+    Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: Vec::new() })
+}
+
+fn callback_url(node: Node<'_>, faults: &mut Faults) -> Option<String> {
+    let text = node.text(faults)?;
+    let length = text.chars().count();
+    if length > MAX_CALLBACK_URL_LENGTH {
+        let detail = format_args!("a URL has at most {MAX_CALLBACK_URL_LENGTH} characters, this one has {length}");
+        faults.add("url_length", node.path(), detail);
+        return None;
+    }
+    Some(text)
+}
