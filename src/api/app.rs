@@ -8,16 +8,15 @@ use std::time::Instant;
 
 use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
-use tokio_util::sync::CancellationToken;
 
 use super::log;
-use super::problem::{internal, refused, unread};
+use super::problem::{internal, not_ready, refused, unread};
 use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
-use crate::jobs::{self, Runner, Store};
+use crate::jobs::{self, Owner, Runner, Store};
 use crate::wire::{PlanRequest, Problem, RequestLimits};
-use crate::workers::{Engine, Outcome, Pool};
+use crate::workers::{Draining, Engine, Outcome, Pool};
 
 /// The service's state.
 pub struct App {
@@ -30,8 +29,7 @@ pub struct App {
     pub(super) waiting: Semaphore,
     /// Room for streams of events.
     pub(super) streams: Arc<Semaphore>,
-    /// Done once the service shuts down.
-    pub(super) draining: CancellationToken,
+    pub(super) draining: Draining,
 }
 
 /// How long a body may wait to be read where nothing else limits its time.
@@ -50,23 +48,39 @@ impl App {
         let pool = Pool::new(settings.threads, settings.queue)?;
         let runner = Arc::new(Runner::new(Arc::clone(&store), &settings.jobs, engine, settings.limits)?);
         let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
-        let draining = CancellationToken::new();
+        let draining = Draining::default();
         Ok(Self { settings, engine, pool, store, runner, waiting, streams: Arc::new(streams), draining })
     }
 
-    /// From now on the service says that it is not ready, though it still answers what reaches it.
+    /// From now on the service says that it is not ready, and begins nothing new.
     pub(super) fn drain(&self) {
-        self.draining.cancel();
+        tracing::info!(computations = self.pool.busy(), "draining");
+        self.draining.begin();
+    }
+
+    /// The time for draining is nearly over.
+    pub(super) fn finish_soon(&self) {
+        tracing::warn!(computations = self.pool.busy(), "what still runs has to deliver the best so far");
+        self.pool.finish_soon();
     }
 
     /// True if new requests are welcome.
     pub(super) fn ready(&self) -> bool {
-        !self.draining.is_cancelled() && self.pool.ready() && self.runner.ready()
+        !self.draining.begun() && self.pool.ready() && self.runner.ready()
+    }
+
+    /// Nothing new begins while the service drains.
+    ///
+    /// # Errors
+    /// A problem while it does.
+    pub(super) fn takes_work(&self) -> Result<(), Problem> {
+        if self.draining.begun() { Err(not_ready()) } else { Ok(()) }
     }
 
     /// Read a body that is not to be answered at once: a small one here, a large one on the planning pool.
     pub(super) async fn read<T: Send + 'static>(
         &self,
+        owner: &Owner,
         arrival: Instant,
         body: Vec<u8>,
         read: impl FnOnce(&[u8], &RequestLimits) -> Result<T, Problem> + Send + 'static,
@@ -75,7 +89,8 @@ impl App {
         if body.len() <= SMALL_BODY {
             return read(&body, &limits);
         }
-        let pending = self.pool.submit(arrival, READING_LIMIT, move |_: &Budget<'_>| read(&body, &limits));
+        let job = move |_: &Budget<'_>| read(&body, &limits);
+        let pending = self.pool.submit(owner.as_str(), arrival, READING_LIMIT, job);
         match pending.map_err(refused)?.outcome().await {
             Outcome::Done(read) => read,
             Outcome::TimedOut => Err(unread()),
@@ -92,17 +107,21 @@ impl App {
         work: impl FnOnce(&R, &Budget<'_>) -> Served + Send + 'static,
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
+        self.takes_work()?;
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
         log::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);
         let job = move |budget: &Budget<'_>| work(own.request()?, budget);
-        let pending = self.pool.submit(arrival, reading.glance().time_limit, job).map_err(refused)?;
+        let pending = self
+            .pool
+            .submit(Owner::anonymous().as_str(), arrival, reading.glance().time_limit, job)
+            .map_err(refused)?;
         match pending.outcome().await {
             Outcome::Done(served) => served,
             Outcome::TimedOut => {
                 spawn_blocking(move || too_late(reading.known())).await.unwrap_or_else(|_| Err(internal()))
             }
-            Outcome::Panicked => Err(internal()),
+            Outcome::Panicked => Err(reading.panicked()),
         }
     }
 }

@@ -77,7 +77,7 @@ pub(super) struct RequestProblems;
 const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
     (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
     (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
-    (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 10 s"),
+    (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 5 s"),
     (
         ProblemKind::BodyTooLarge,
         "The body is larger than the limit, 4,000,000 bytes by default.",
@@ -96,7 +96,7 @@ const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
     ),
     (
         ProblemKind::Overloaded,
-        "Every thread is busy and the queue is full, or the service shuts down.",
+        "Every thread is busy, and the queue is full or no thread is likely to be free within the time limit; or the service shuts down.",
         "every thread is busy and the queue is full",
     ),
 ];

@@ -3,6 +3,7 @@
 mod accept;
 mod app;
 mod body;
+mod connections;
 mod docs;
 mod document;
 mod jobs;

@@ -1,9 +1,10 @@
 //! Faults as responses: the one place that knows which inner error has which status.
 
 use core::any::Any;
+use core::time::Duration;
 
 use axum::Json;
-use axum::http::{HeaderName, HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::wire::{Problem, ProblemKind};
@@ -12,37 +13,58 @@ use crate::workers::Refused;
 /// The media type of a problem document.
 pub(super) const PROBLEM_JSON: &str = "application/problem+json";
 
-/// When a client that was refused for want of room may come again, s.
-const RETRY_AFTER: &str = "1";
+/// When a client that was refused may come again where nothing else is known.
+const RETRY_AFTER: Duration = Duration::from_secs(1);
+
+/// No estimate is worth more than this: by then all that waits now is over, for no time limit is longer by default.
+const MAX_RETRY_AFTER: Duration = Duration::from_secs(60);
 
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
-        let extra: Option<(HeaderName, &'static str)> = match self.kind() {
-            ProblemKind::Overloaded | ProblemKind::NotReady | ProblemKind::StoreUnavailable => {
-                Some((header::RETRY_AFTER, RETRY_AFTER))
-            }
+        let kind = self.kind();
+        let retry_after =
+            matches!(kind, ProblemKind::Overloaded | ProblemKind::NotReady | ProblemKind::StoreUnavailable)
+                .then(|| seconds(&self));
+        let close = match kind {
             // The rest of the body may still be on its way.
-            ProblemKind::BodyTimeout | ProblemKind::BodyTooLarge => Some((header::CONNECTION, "close")),
-            _ => None,
+            ProblemKind::BodyTimeout | ProblemKind::BodyTooLarge => true,
+            // Another process may answer on the next connection.
+            ProblemKind::NotReady => true,
+            _ => false,
         };
         let mut response = (status, Json(self)).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
-        if let Some((name, value)) = extra {
-            headers.insert(name, HeaderValue::from_static(value));
+        if let Some(seconds) = retry_after {
+            headers.insert(header::RETRY_AFTER, HeaderValue::from(seconds));
+        }
+        if close {
+            headers.insert(header::CONNECTION, HeaderValue::from_static("close"));
         }
         response
     }
 }
 
-/// No room for a job.
+/// When to come again, in whole seconds, rounded up.
+fn seconds(problem: &Problem) -> u64 {
+    let after = problem.retry_after().unwrap_or(RETRY_AFTER).clamp(RETRY_AFTER, MAX_RETRY_AFTER);
+    after.as_secs() + u64::from(after.subsec_nanos() > 0)
+}
+
+/// No room for a computation.
 pub(super) fn refused(refused: Refused) -> Problem {
-    let kind = match refused {
-        Refused::Full => ProblemKind::Overloaded,
-        Refused::Closed => ProblemKind::NotReady,
-    };
-    Problem::new(kind, refused.to_string())
+    let problem = |kind| Problem::new(kind, refused.to_string());
+    match refused {
+        Refused::Full => problem(ProblemKind::Overloaded),
+        Refused::TooLate { retry_after } => problem(ProblemKind::Overloaded).with_retry_after(retry_after),
+        Refused::Closed => not_ready(),
+    }
+}
+
+/// The service shuts down.
+pub(super) fn not_ready() -> Problem {
+    Problem::new(ProblemKind::NotReady, "the service shuts down and begins nothing new")
 }
 
 /// A body that could not be read within its time limit, and nothing can be said without it.

@@ -2,7 +2,9 @@
 
 use std::sync::OnceLock;
 
+use super::problem::internal;
 use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
+use crate::workers::panicked;
 
 /// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond. Larger ones are read by
 /// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
@@ -60,6 +62,17 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
         }
         let request = (self.read)(&self.body, &self.limits)?;
         Ok(self.request.get_or_init(|| request))
+    }
+
+    /// The computation panicked: log all that is needed to see it panic again.
+    pub(super) fn panicked(&self) -> Problem {
+        match self.request.get() {
+            Some(request) => panicked(request.as_ref()),
+            None => {
+                tracing::error!(body = %String::from_utf8_lossy(&self.body), "reading a body panicked");
+                internal()
+            }
+        }
     }
 
     /// As much as is known by now.

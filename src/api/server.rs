@@ -1,39 +1,28 @@
-//! Accepts connections and serves them, until it is told to stop.
+//! The service from its start to its end.
 
-use core::pin::pin;
 use core::time::Duration;
 use std::io;
 use std::sync::Arc;
 
-use axum::Router;
-use hyper::server::conn::http1;
-use hyper::service::{Service, service_fn};
-use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::server::graceful::{GracefulShutdown, Watcher};
-use hyper_util::service::TowerToHyperService;
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
-use tokio::task::{JoinSet, spawn_blocking};
-use tokio::time::{sleep, timeout};
+use tokio::net::TcpListener;
+use tokio::task::spawn_blocking;
+use tokio::time::{Instant, timeout_at};
 use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
 
 use super::app::App;
-use super::patience::PatientStream;
-use super::router::router;
+use super::connections::Connections;
 use super::settings::ServerSettings;
 use crate::workers::Engine;
 
-/// How long to wait after the system refused a connection, mostly for want of file descriptors.
-const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+/// The share of the time for draining after which what still runs is to deliver the best so far. The rest is for those
+/// answers to be written, and taken.
+const RUNNING_SHARE: f64 = 0.9;
 
-/// How long a connection may rest between two requests. Longer than the usual client's, so that the client closes first
-/// and no request meets a closed door.
-const IDLE_TIMEOUT: Duration = Duration::from_secs(75);
+/// How long a cancelled computation is waited for where the time for draining is over. Cancelling frees a core within 20 ms.
+const LAST_LOOK: Duration = Duration::from_secs(1);
 
-/// How long the clients have, once the last answer is due, to take it.
-const FAREWELL: Duration = Duration::from_secs(5);
-
-/// Serve on `listener` until `shutdown` is done; then finish what runs, and return.
+/// Serve on `listener` until `shutdown` is done; then drain and return.
 ///
 /// # Errors
 /// If the system gives no threads.
@@ -56,72 +45,52 @@ pub async fn run_with(
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let app = Arc::new(App::start(settings, engine).await?);
-    let over = CancellationToken::new();
-    let jobs = tokio::spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
-    let mut connections = JoinSet::new();
-    let graceful = GracefulShutdown::new();
-    {
-        let mut shutdown = pin!(shutdown);
-        let slots = Arc::new(Semaphore::new(app.settings.connections.max(1)));
-        let service = router(Arc::clone(&app));
-        loop {
-            let (stream, slot) = tokio::select! {
-                () = &mut shutdown => break,
-                accepted = accept(&listener, &slots) => accepted,
-            };
-            connections.spawn(serve(stream, slot, service.clone(), Arc::clone(&app), graceful.watcher()));
-            while connections.try_join_next().is_some() {}
-        }
+    let workers = Workers::begin(&app);
+    let mut connections = Connections::new(listener, Arc::clone(&app));
+    connections.serve_until(shutdown).await;
+    drain(&app, connections, &workers).await;
+    Ok(())
+}
+
+/// The workers for jobs.
+struct Workers {
+    tasks: TaskTracker,
+    /// Whoever still has a job then hands it back.
+    over: CancellationToken,
+}
+
+impl Workers {
+    fn begin(app: &App) -> Self {
+        let (tasks, over) = (TaskTracker::new(), CancellationToken::new());
+        tasks.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
+        tasks.close();
+        Self { tasks, over }
     }
+}
+
+/// Answer what has been asked and end what runs, within the time for draining. Connections are accepted all the while, so
+/// that probes see that the service is not ready; what would begin anew is refused.
+async fn drain(app: &Arc<App>, mut connections: Connections, workers: &Workers) {
+    let began = Instant::now();
+    let (last_words, end) = (began + app.settings.drain.mul_f64(RUNNING_SHARE), began + app.settings.drain);
     app.drain();
-    drop(listener);
-    let last_answer = app.settings.body_timeout + app.settings.limits.max_time_limit;
-    if timeout(last_answer + FAREWELL, graceful.shutdown()).await.is_err() {
-        tracing::warn!("some clients did not take their answers");
-    }
-    connections.shutdown().await;
-    over.cancel();
-    jobs.await.map_err(io::Error::other)?;
-    // Every caller has gone, so whatever still runs is cancelled and ends soon.
-    spawn_blocking(move || app.pool.join()).await.map_err(io::Error::other)
-}
-
-/// The next connection, once there is a slot for it.
-async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, OwnedSemaphorePermit) {
-    loop {
-        let Ok(slot) = Arc::clone(slots).acquire_owned().await else { continue };
-        match listener.accept().await {
-            Ok((stream, _)) => return (stream, slot),
-            Err(error) => {
-                tracing::warn!(%error, "a connection was not accepted");
-                sleep(ACCEPT_PAUSE).await;
-            }
+    if !connections.answer_until(last_words, workers.tasks.wait()).await {
+        app.finish_soon();
+        workers.over.cancel();
+        if !connections.answer_until(end, workers.tasks.wait()).await {
+            tracing::warn!("some clients did not take their answers, or some jobs could not be handed back");
         }
     }
+    // Whoever is connected still has asked nothing, or takes no answer.
+    drop(connections);
+    end_computations(app, end.max(Instant::now() + LAST_LOOK)).await;
 }
 
-async fn serve(stream: TcpStream, slot: OwnedSemaphorePermit, service: Router, app: Arc<App>, watcher: Watcher) {
-    // Answers are small and waited for.
-    if let Err(error) = stream.set_nodelay(true) {
-        tracing::debug!(%error, "the connection keeps its delay");
+/// Every caller has gone, so what still runs is cancelled and ends within milliseconds. Should it not, the process takes it
+/// along.
+async fn end_computations(app: &Arc<App>, end: Instant) {
+    let own = Arc::clone(app);
+    if timeout_at(end, spawn_blocking(move || own.pool.join())).await.is_err() {
+        tracing::error!("a computation does not end though it is cancelled");
     }
-    let (stream, quiet) = PatientStream::new(stream, &app.settings);
-    let service = TowerToHyperService::new(service);
-    let service = service_fn(move |request| {
-        quiet.set(false);
-        let (answer, quiet) = (service.call(request), quiet.clone());
-        async move {
-            let answer = answer.await;
-            quiet.set(true);
-            answer
-        }
-    });
-    let connection = http1::Builder::new()
-        .timer(TokioTimer::new())
-        .header_read_timeout(IDLE_TIMEOUT)
-        .serve_connection(TokioIo::new(stream), service);
-    if let Err(error) = watcher.watch(connection).await {
-        tracing::debug!(%error, "a connection ended early");
-    }
-    drop(slot);
 }

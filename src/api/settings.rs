@@ -31,6 +31,8 @@ pub struct ServerSettings {
     pub body_timeout: Duration,
     /// How long a client may take nothing of an answer that waits for it.
     pub write_timeout: Duration,
+    /// How long what runs has to end once the service is to shut down.
+    pub drain: Duration,
 }
 
 impl Default for ServerSettings {
@@ -39,14 +41,24 @@ impl Default for ServerSettings {
             limits: RequestLimits::default(),
             jobs: JobSettings::default(),
             threads: available_parallelism().map_or(1, usize::from),
+            // What a cell of robots asks at once. A longer queue helps nobody: who would wait past its deadline is refused
+            // whatever the room.
             queue: 64,
+            // 10,000 objects, the most of a scene, with ids of 100 characters each.
             max_body_bytes: 4_000_000,
-            connections: 1024,
+            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 20 kB and a file
+            // descriptor.
+            connections: 12_000,
+            // Whoever waits is a connection and some kB.
             max_waiting: 1000,
             max_streams: 1000,
+            // Time for two packets to be lost and sent again; a client that takes longer is broken, or means harm.
             header_timeout: Duration::from_secs(5),
-            body_timeout: Duration::from_secs(10),
+            // The largest body at 6.4 Mbit/s.
+            body_timeout: Duration::from_secs(5),
             write_timeout: Duration::from_secs(30),
+            // What container managers wait between asking a process to end and killing it is this or longer.
+            drain: Duration::from_secs(10),
         }
     }
 }

@@ -5,6 +5,7 @@ mod flags;
 mod generate;
 mod healthcheck;
 mod input;
+mod open_files;
 mod output;
 mod plan;
 mod progress;

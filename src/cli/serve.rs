@@ -6,7 +6,7 @@ use clap::Args;
 use tokio::net::TcpListener;
 
 use super::flags::Flags;
-use super::{Failure, configure, output};
+use super::{Failure, configure, open_files, output};
 use crate::api;
 use crate::config::Config;
 
@@ -25,31 +25,48 @@ impl Serve {
         let config = configure(&self.flags.0)?;
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
-        runtime.block_on(serve(config))
+        let served = runtime.block_on(serve(config));
+        // Nothing is left that would be worth waiting for.
+        runtime.shutdown_background();
+        served
     }
 }
 
-async fn serve(config: Config) -> Result<(), Failure> {
+async fn serve(mut config: Config) -> Result<(), Failure> {
     let broken = |error: std::io::Error| Failure::Broken(format!("{}: {error}", config.listen));
     let listener = TcpListener::bind(config.listen).await.map_err(broken)?;
     let shutdown = stop_signal().map_err(broken)?;
     let listen = listener.local_addr().map_err(broken)?;
+    config.server.connections = open_files::room_for(config.server.connections);
     tracing::info!(%listen, threads = config.server.threads, "serving");
     output::print(&greeting(listen))?;
     api::run(listener, config.server, shutdown).await.map_err(broken)
 }
 
-/// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers.
+/// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers. Asked a second time, it ends at
+/// once, with the status that a shell gives a process which the signal has ended.
 fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
     use tokio::signal::unix::{SignalKind, signal};
-    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
-    Ok(async move {
+    let (interrupt, terminate) = (SignalKind::interrupt(), SignalKind::terminate());
+    let (mut interrupts, mut terminates) = (signal(interrupt)?, signal(terminate)?);
+    let mut asked = async move || {
         tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
+            _ = interrupts.recv() => interrupt,
+            _ = terminates.recv() => terminate,
         }
+    };
+    Ok(async move {
+        asked().await;
+        tokio::spawn(async move {
+            let again = asked().await.as_raw_value();
+            tracing::warn!("asked to end a second time");
+            std::process::exit(KILLED + again);
+        });
     })
 }
+
+/// What a shell adds to the number of the signal that ended a process.
+const KILLED: i32 = 128;
 
 fn greeting(listen: SocketAddr) -> String {
     let host = if listen.ip().is_unspecified() { "localhost".to_owned() } else { listen.ip().to_string() };

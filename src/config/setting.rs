@@ -187,6 +187,14 @@ pub static SETTINGS: &[Setting] = &[
         get: |config| config.server.max_streams.to_string(),
     },
     Setting {
+        name: "drain_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long what runs has to end once the service is asked to",
+        set: |config, text| milliseconds(text, &mut config.server.drain),
+        get: |config| config.server.drain.as_millis().to_string(),
+    },
+    Setting {
         name: "max_objects",
         scope: Scope::Planning,
         placeholder: "N",

@@ -19,7 +19,7 @@ use super::sweeper::sweep;
 use super::timestamp::Timestamp;
 use super::work::{Tools, Work};
 use crate::wire::RequestLimits;
-use crate::workers::{Ender, Engine, Pool};
+use crate::workers::{Draining, Engine, Pool, Recall};
 
 /// How long to wait for a hint before looking for work all the same: another server's hint may be lost.
 const LOOK_AGAIN: Duration = Duration::from_millis(500);
@@ -31,7 +31,7 @@ pub struct Runner {
     lease: Duration,
     slots: Arc<Semaphore>,
     /// What runs here, each with the means to end it.
-    running: Mutex<HashMap<JobId, Ender>>,
+    running: Mutex<HashMap<JobId, Recall>>,
 }
 
 impl Runner {
@@ -58,11 +58,11 @@ impl Runner {
     }
 
     /// Take jobs until `draining`; see those that run to their end, but hand back what still runs at `over`.
-    pub async fn run(self: Arc<Self>, draining: CancellationToken, over: CancellationToken) {
+    pub async fn run(self: Arc<Self>, draining: Draining, over: CancellationToken) {
         let tasks = TaskTracker::new();
         tasks.spawn(sweep(Arc::clone(&self.store), self.lease, draining.clone()));
         let mut pause = Pause::default();
-        while let Some(slot) = draining.run_until_cancelled(self.slot()).await {
+        while let Some(slot) = draining.unless_begun(self.slot()).await {
             let hint = self.store.hints().work.notified();
             match self.store.claim(Timestamp::now()).await {
                 Ok(Some(claimed)) => {
@@ -74,12 +74,12 @@ impl Runner {
                     tokio::select! {
                         () = hint => {}
                         () = sleep(LOOK_AGAIN) => {}
-                        () = draining.cancelled() => {}
+                        () = draining.wait() => {}
                     }
                 }
                 Err(error) => {
                     tracing::warn!(%error, "no job could be claimed");
-                    draining.run_until_cancelled(pause.pass()).await;
+                    draining.unless_begun(pause.pass()).await;
                 }
             }
         }
@@ -94,8 +94,8 @@ impl Runner {
 
     /// A job that runs here ends now, with the best so far.
     pub fn end_soon(&self, id: JobId) {
-        if let Some(ender) = self.running().get(&id) {
-            ender.finish_soon();
+        if let Some(recall) = self.running().get(&id) {
+            recall.finish_soon();
         }
     }
 
@@ -115,12 +115,12 @@ impl Runner {
         let Ok(work) = Work::begin(body, &self.pool, self.tools, watcher) else {
             return held.hand_back().await;
         };
-        let ender = work.ender();
-        self.running().insert(claim.id, ender.clone());
+        let recall = work.recall();
+        self.running().insert(claim.id, recall.clone());
         let ended = tokio::select! {
             end = work.end() => Some(end),
             // Somebody else has the job now.
-            () = held.keep(&mut incumbent, || ender.finish_soon()) => None,
+            () = held.keep(&mut incumbent, || recall.finish_soon()) => None,
             () = over.cancelled() => {
                 held.hand_back().await;
                 None
@@ -134,7 +134,7 @@ impl Runner {
         drop(slot);
     }
 
-    fn running(&self) -> MutexGuard<'_, HashMap<JobId, Ender>> {
+    fn running(&self) -> MutexGuard<'_, HashMap<JobId, Recall>> {
         // No invariant of the map can be broken by a panic.
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -4,10 +4,10 @@ use core::time::Duration;
 use std::sync::Arc;
 
 use tokio::time::{MissedTickBehavior, interval};
-use tokio_util::sync::CancellationToken;
 
 use super::store::{Store, Swept};
 use super::timestamp::Timestamp;
+use crate::workers::Draining;
 
 /// How often to look: four times a lease, so that a lost worker's job waits hardly longer than its lease; but not all the
 /// time, and not so seldom that an expired job is seen waiting.
@@ -15,10 +15,10 @@ const OFTEN: Duration = Duration::from_millis(50);
 const SELDOM: Duration = Duration::from_secs(1);
 
 /// Sweep the store now and then until `draining`.
-pub(super) async fn sweep(store: Arc<dyn Store>, lease: Duration, draining: CancellationToken) {
+pub(super) async fn sweep(store: Arc<dyn Store>, lease: Duration, draining: Draining) {
     let mut due = interval((lease / 4).clamp(OFTEN, SELDOM));
     due.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    while draining.run_until_cancelled(due.tick()).await.is_some() {
+    while draining.unless_begun(due.tick()).await.is_some() {
         match store.sweep(Timestamp::now()).await {
             Ok(swept) => tell(&swept),
             Err(error) => tracing::warn!(%error, "the store could not be swept"),

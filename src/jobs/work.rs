@@ -9,7 +9,10 @@ use tokio::sync::watch;
 use super::job::End;
 use crate::budget::{Budget, Incumbent};
 use crate::wire::{AnswerBody, Glance, Problem, ProblemKind, RequestLimits, read_job};
-use crate::workers::{Ender, Engine, Outcome, Pending, Pool, Refused};
+use crate::workers::{Engine, Outcome, Pending, Pool, Recall, Refused};
+
+/// The store has seen to the turns of owners; a job that it gave is not to wait for another's.
+const WORKER: &str = "worker";
 
 /// What a worker needs besides the job.
 #[derive(Clone, Copy)]
@@ -45,13 +48,13 @@ impl Work {
             };
             plan(&own, tools, &budget.observed(&observer))
         };
-        let pending = pool.submit(arrival, glance.time_limit, job)?;
+        let pending = pool.submit(WORKER, arrival, glance.time_limit, job)?;
         Ok(Self { pending, body, glance })
     }
 
-    /// The means to end it early.
-    pub(super) fn ender(&self) -> Ender {
-        self.pending.ender()
+    /// The way to its early end.
+    pub(super) fn recall(&self) -> Recall {
+        self.pending.recall()
     }
 
     /// How the job ends.

@@ -1,6 +1,7 @@
 //! Faults as problem documents (RFC 9457).
 
 use core::fmt;
+use core::time::Duration;
 
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -71,7 +72,7 @@ pub enum ProblemKind {
     /// The store of jobs can't be reached.
     #[serde(rename = "urn:singulate:problem:store_unavailable")]
     StoreUnavailable,
-    /// Every thread is busy and the queue is full.
+    /// Every thread is busy, and the queue is full or no thread would be free in time.
     #[serde(rename = "urn:singulate:problem:overloaded")]
     Overloaded,
     /// The service does not take requests now.
@@ -135,13 +136,17 @@ pub struct Problem {
         "detail": "-0.075 is not between 0.000001 and 1000"
     }]))]
     errors: Vec<ErrorItem>,
+    /// When to come again, where that is known; goes out as a header.
+    #[serde(skip)]
+    #[schema(ignore)]
+    retry_after: Option<Duration>,
 }
 
 impl Problem {
     /// A problem of this kind.
     pub fn new(kind: ProblemKind, detail: impl Into<String>) -> Self {
         let (status, title) = kind.status_and_title();
-        Self { kind, title, status, detail: detail.into(), errors: Vec::new() }
+        Self { kind, title, status, detail: detail.into(), errors: Vec::new(), retry_after: None }
     }
 
     /// A body with these faults.
@@ -159,6 +164,17 @@ impl Problem {
     #[must_use]
     pub(super) fn with_errors(self, errors: Vec<ErrorItem>) -> Self {
         Self { errors, ..self }
+    }
+
+    /// The same problem, and when to come again.
+    #[must_use]
+    pub fn with_retry_after(self, retry_after: Duration) -> Self {
+        Self { retry_after: Some(retry_after), ..self }
+    }
+
+    /// When to come again, where that is known.
+    pub fn retry_after(&self) -> Option<Duration> {
+        self.retry_after
     }
 
     /// The kind.

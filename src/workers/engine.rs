@@ -44,7 +44,18 @@ impl Engine {
 /// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
 fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
-    let scene = serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default();
-    tracing::error!(%scene, settings = ?request.settings, faults = ?report.faults, "an answer failed its check");
+    let (scene, settings) = (written(request), &request.settings);
+    tracing::error!(%scene, ?settings, faults = ?report.faults, "an answer failed its check");
     Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")
+}
+
+/// A computation panicked: log all that is needed to see it panic again.
+pub fn panicked(request: &PlanRequest) -> Problem {
+    let (scene, settings) = (written(request), &request.settings);
+    tracing::error!(%scene, ?settings, "a computation panicked");
+    Problem::new(ProblemKind::Internal, "the request could not be answered; the scene is in the log")
+}
+
+fn written(request: &PlanRequest) -> String {
+    serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default()
 }

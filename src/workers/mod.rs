@@ -1,9 +1,15 @@
 //! Runs computations on threads of their own, so that waiting for them costs the rest of the service nothing.
 
+mod draining;
 mod engine;
+mod forecast;
 mod pending;
 mod pool;
+mod queue;
+#[cfg(test)]
+mod tests;
 
-pub use engine::Engine;
-pub use pending::{Ender, Outcome, Pending};
+pub use draining::Draining;
+pub use engine::{Engine, panicked};
+pub use pending::{Outcome, Pending, Recall};
 pub use pool::{Pool, Refused};

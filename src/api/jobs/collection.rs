@@ -18,7 +18,9 @@ use crate::api::document::RequestProblems;
 use crate::api::reading::Read;
 use crate::api::{body, log};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
-use crate::wire::{BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, read_batch, read_job};
+use crate::wire::{
+    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
+};
 
 /// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
 const MAX_PAGE: u64 = 100;
@@ -110,12 +112,13 @@ pub(in crate::api) async fn list(
 /// The jobs that a body asks for, kept by the store.
 async fn take(app: &Arc<App>, request: Request<Body>, read: Read<Vec<JobRequest>>) -> Result<Vec<Job>, Problem> {
     let arrival = Instant::now();
+    app.takes_work()?;
     let key = key(request.headers())?;
     let body = body::receive(request, &app.settings).await?;
     let owner = Owner::anonymous();
-    let jobs = app
-        .read(arrival, body, move |body, limits| Ok(new_jobs(read(body, limits)?, body, &owner, key.as_deref())))
-        .await?;
+    let own = owner.clone();
+    let new = move |body: &[u8], limits: &RequestLimits| Ok(new_jobs(read(body, limits)?, body, &own, key.as_deref()));
+    let jobs = app.read(&owner, arrival, body, new).await?;
     if let [job] = &jobs[..] {
         log::note_scene(job.scene_id.as_deref());
     }

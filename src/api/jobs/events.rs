@@ -104,7 +104,7 @@ impl Listener {
                 tokio::select! {
                     () = changed => {}
                     () = sleep(LOOK_AGAIN) => {}
-                    () = self.app.draining.cancelled() => {
+                    () = self.app.draining.wait() => {
                         self.ready.push_back(Message::default().event("draining").data("{}"));
                         self.over = true;
                     }

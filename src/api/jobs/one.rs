@@ -121,13 +121,13 @@ async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> 
         let changed = watcher.changed();
         let job = find(app, id).await?;
         let left = wait.saturating_sub(started.elapsed());
-        if job.state.finished() || left.is_zero() || app.draining.is_cancelled() {
+        if job.state.finished() || left.is_zero() || app.draining.begun() {
             return Ok(job);
         }
         tokio::select! {
             () = changed => {}
             () = sleep(left.min(LOOK_AGAIN)) => {}
-            () = app.draining.cancelled() => {}
+            () = app.draining.wait() => {}
         }
     }
 }

@@ -1,0 +1,147 @@
+//! Accepts connections and serves them.
+
+use core::pin::pin;
+use core::time::Duration;
+use std::sync::{Arc, OnceLock};
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper::service::{Service, service_fn};
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
+use tokio::task::JoinSet;
+use tokio::time::{Instant, sleep, timeout_at};
+
+use super::app::App;
+use super::patience::PatientStream;
+use super::router::router;
+
+/// How long to wait after the system refused a connection, mostly for want of file descriptors.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// How long a connection may rest between two requests. Longer than the usual client's, so that the client closes first
+/// and no request meets a closed door.
+const IDLE_TIMEOUT: Duration = Duration::from_secs(75);
+
+/// The listener and all its connections. Dropping it ends them.
+pub(super) struct Connections {
+    listener: TcpListener,
+    app: Arc<App>,
+    service: Router,
+    slots: Arc<Semaphore>,
+    open: JoinSet<()>,
+    /// How many connections have asked something. Once the service drains each of them ends by itself: at once if it
+    /// rests, with its answer if it waits for one.
+    asking: watch::Sender<usize>,
+}
+
+impl Connections {
+    pub(super) fn new(listener: TcpListener, app: Arc<App>) -> Self {
+        let slots = Arc::new(Semaphore::new(app.settings.connections.max(1)));
+        let service = router(Arc::clone(&app));
+        Self { listener, app, service, slots, open: JoinSet::new(), asking: watch::Sender::default() }
+    }
+
+    /// Accept and serve until `end` is done.
+    pub(super) async fn serve_until(&mut self, end: impl Future<Output = ()>) {
+        let mut end = pin!(end);
+        loop {
+            let (stream, slot) = tokio::select! {
+                biased;
+                () = &mut end => return,
+                accepted = accept(&self.listener, &self.slots) => accepted,
+            };
+            let asking = self.asking.clone();
+            self.open.spawn(serve(stream, slot, self.service.clone(), Arc::clone(&self.app), asking));
+            while self.open.try_join_next().is_some() {}
+        }
+    }
+
+    /// Once the service drains: accept and serve until nobody waits for an answer and `also` is done. False if that takes
+    /// longer.
+    pub(super) async fn answer_until(&mut self, deadline: Instant, also: impl Future<Output = ()>) -> bool {
+        let mut asking = self.asking.subscribe();
+        // An error would mean that nobody counts any more.
+        let answered = async move { drop(asking.wait_for(|count| *count == 0).await) };
+        let answered = async {
+            tokio::join!(also, answered);
+        };
+        timeout_at(deadline, self.serve_until(answered)).await.is_ok()
+    }
+}
+
+/// The next connection, once there is a slot for it.
+async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, OwnedSemaphorePermit) {
+    loop {
+        let Ok(slot) = Arc::clone(slots).acquire_owned().await else { continue };
+        match listener.accept().await {
+            Ok((stream, _)) => return (stream, slot),
+            Err(error) => {
+                tracing::warn!(%error, "a connection was not accepted");
+                sleep(ACCEPT_PAUSE).await;
+            }
+        }
+    }
+}
+
+async fn serve(
+    stream: TcpStream,
+    slot: OwnedSemaphorePermit,
+    service: Router,
+    app: Arc<App>,
+    asking: watch::Sender<usize>,
+) {
+    // Answers are small and waited for. A connection that keeps its delay serves all the same.
+    let _ = stream.set_nodelay(true);
+    let (stream, quiet) = PatientStream::new(stream, &app.settings);
+    let service = TowerToHyperService::new(service);
+    let asked = OnceLock::new();
+    let service = service_fn(move |request| {
+        asked.get_or_init(|| Asking::new(asking.clone()));
+        quiet.set(false);
+        let (answer, quiet) = (service.call(request), quiet.clone());
+        async move {
+            let answer = answer.await;
+            quiet.set(true);
+            answer
+        }
+    });
+    // Whoever comes while the service drains has one request answered: most are probes.
+    let lasting = !app.draining.begun();
+    let mut builder = http1::Builder::new();
+    builder.timer(TokioTimer::new()).header_read_timeout(IDLE_TIMEOUT).keep_alive(lasting);
+    let mut connection = pin!(builder.serve_connection(TokioIo::new(stream), service));
+    let ended = tokio::select! {
+        ended = connection.as_mut() => ended,
+        () = app.draining.wait(), if lasting => {
+            connection.as_mut().graceful_shutdown();
+            connection.await
+        }
+    };
+    note(ended);
+    drop(slot);
+}
+
+fn note(ended: hyper::Result<()>) {
+    if let Err(error) = ended {
+        tracing::debug!(%error, "a connection ended early");
+    }
+}
+
+/// Counts a connection from its first request to its end.
+struct Asking(watch::Sender<usize>);
+
+impl Asking {
+    fn new(count: watch::Sender<usize>) -> Self {
+        count.send_modify(|count| *count += 1);
+        Self(count)
+    }
+}
+
+impl Drop for Asking {
+    fn drop(&mut self) {
+        self.0.send_modify(|count| *count -= 1);
+    }
+}
