@@ -31,7 +31,11 @@ impl Job {
     #[must_use]
     pub fn as_of(&self, event: &Event) -> Self {
         let then = Self { attempts: event.attempts, incumbent: event.incumbent, queue_position: None, ..self.clone() };
-        let unfinished = Self { finished_at: None, result: None, problem: None, version: None, ..then.clone() };
+        // As long after its beginning as it is kept after its end.
+        let expires_at =
+            then.finished_at.map_or(then.expires_at, |end| then.created_at.after(then.expires_at.since(end)));
+        let unfinished =
+            Self { finished_at: None, expires_at, result: None, problem: None, version: None, ..then.clone() };
         let begun =
             self.events.iter().rev().find(|other| {
                 other.kind == EventKind::Running && other.attempts == event.attempts && other.at <= event.at

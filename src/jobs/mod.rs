@@ -10,6 +10,7 @@ mod job;
 mod pause;
 mod runner;
 mod settings;
+mod sql;
 mod store;
 mod sweeper;
 mod timestamp;
@@ -19,13 +20,9 @@ pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
 pub use runner::Runner;
 pub use settings::JobSettings;
+pub use sql::{OpenError, open};
 pub use store::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_ATTEMPTS, MAX_INCUMBENT_EVENTS, Page, Removal,
     Renewal, Store, StoreError, SubmitError, Swept,
 };
 pub use timestamp::Timestamp;
-
-/// Temporary.
-pub async fn open(_: &JobSettings) -> Result<std::sync::Arc<dyn Store>, StoreError> {
-    Err(StoreError("none".to_owned()))
-}
