@@ -3,12 +3,17 @@
 //! A [`Store`] keeps them; a runner claims them, one lease at a time, and plans; whoever watches a job is woken by
 //! [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
 
+mod callback;
 mod hints;
 mod job;
 mod settings;
 mod store;
 mod timestamp;
 
+pub(crate) use callback::innermost;
+pub use callback::{
+    CallbackAllow, CallbackDelivery, CallbackFault, CallbackSecret, CallbackUrl, client_builder, trusted_roots,
+};
 pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
 pub use settings::JobSettings;

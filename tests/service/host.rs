@@ -8,6 +8,7 @@ use std::net::TcpStream;
 use serde_json::{Value, json};
 use singulate::api::server::run_with;
 use singulate::api::{Engine, ServerSettings};
+use singulate::jobs::{client_builder, trusted_roots};
 use tokio::net::TcpListener;
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
@@ -36,7 +37,7 @@ impl Host {
             // A host that is dropped stops too.
             let _ = stopped.await;
         }));
-        let client = reqwest::Client::builder().no_proxy().build().unwrap();
+        let client = client_builder(trusted_roots()).build().unwrap();
         Self { address, client, stop, task }
     }
 
