@@ -5,12 +5,10 @@ use core::str::FromStr;
 use std::net::IpAddr;
 
 use ipnet::IpNet;
-use url::{Host, Url};
+use url::Host;
 
 use super::address::is_public;
-
-/// The longest URL of a callback. Every receiver and every proxy before it takes that much.
-pub(super) const MAX_URL_BYTES: usize = 2_000;
+use super::destination::{CallbackFault, CallbackUrl};
 
 /// Who may be told: nobody unless listed.
 ///
@@ -29,67 +27,6 @@ enum Entry {
     Range(IpNet),
 }
 
-/// Where a callback goes. It keeps every rule that can be told without resolving its host.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CallbackUrl(Url);
-
-/// Why a callback may not be.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum CallbackFault {
-    /// Longer than any URL should be.
-    #[error("a callback's URL has at most {MAX_URL_BYTES} bytes")]
-    TooLong,
-    /// No URL at all.
-    #[error("not a URL: {0}")]
-    NotAUrl(url::ParseError),
-    /// Not a scheme that callbacks go by.
-    #[error("a callback goes by http or https")]
-    Scheme,
-    /// A name or password within the URL, which would end up in logs on the way.
-    #[error("a callback's URL holds no name and no password")]
-    UserInfo,
-    /// A fragment, which no receiver ever sees.
-    #[error("a callback's URL has no fragment")]
-    Fragment,
-    /// Nobody is told at all.
-    #[error("this service makes no callbacks")]
-    Off,
-    /// The host is not listed.
-    #[error("'{0}' is not among the hosts that this service may call back")]
-    NotListed(String),
-    /// The host is listed by name, and where it lies may not be called.
-    #[error("'{0}' resolves to an address that is neither public nor listed")]
-    NotPublic(String),
-}
-
-impl CallbackFault {
-    /// As it is written everywhere.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::TooLong => "out_of_range",
-            Self::NotAUrl(_) | Self::Scheme | Self::UserInfo | Self::Fragment => "bad_callback_url",
-            Self::Off | Self::NotListed(_) | Self::NotPublic(_) => "callback_not_allowed",
-        }
-    }
-}
-
-impl CallbackUrl {
-    /// As every reader of URLs understands it: `http://0x7f.1/` is `http://127.0.0.1/`.
-    pub fn as_str(&self) -> &str {
-        self.0.as_str()
-    }
-
-    pub(super) fn url(&self) -> &Url {
-        &self.0
-    }
-
-    /// Who is told: host and port.
-    pub(super) fn receiver(&self) -> String {
-        let port = self.0.port_or_known_default().unwrap_or_default();
-        format!("{}:{port}", self.0.host_str().unwrap_or_default())
-    }
-}
-
 impl CallbackAllow {
     /// True if nobody is listed: there are no callbacks.
     pub fn is_empty(&self) -> bool {
@@ -104,27 +41,14 @@ impl CallbackAllow {
         if self.is_empty() {
             return Err(CallbackFault::Off);
         }
-        if text.len() > MAX_URL_BYTES {
-            return Err(CallbackFault::TooLong);
-        }
-        let url = Url::parse(text).map_err(CallbackFault::NotAUrl)?;
-        if !["http", "https"].contains(&url.scheme()) {
-            return Err(CallbackFault::Scheme);
-        }
-        if !url.username().is_empty() || url.password().is_some() {
-            return Err(CallbackFault::UserInfo);
-        }
-        if url.fragment().is_some() {
-            return Err(CallbackFault::Fragment);
-        }
-        let listed = match url.host() {
+        let url = CallbackUrl::parse(text)?;
+        let listed = match url.url().host() {
             Some(Host::Domain(name)) => self.0.iter().any(|entry| entry.names(name)),
             Some(Host::Ipv4(address)) => self.lists(address.into()),
             Some(Host::Ipv6(address)) => self.lists(address.into()),
             None => false,
         };
-        let host = url.host_str().unwrap_or_default();
-        if listed { Ok(CallbackUrl(url)) } else { Err(CallbackFault::NotListed(host.to_owned())) }
+        if listed { Ok(url) } else { Err(CallbackFault::NotListed(url.host().to_owned())) }
     }
 
     /// What a listed name resolves to. One address that may not be called refuses the name: with those that may, where
@@ -295,27 +219,6 @@ mod tests {
         for host in ["[::ffff:7f00:1]", "[0:0:0:0:0:ffff:127.0.0.1]"] {
             assert!(allow("127.0.0.1").check(&format!("http://{host}/")).is_ok(), "{host}");
         }
-    }
-
-    #[test]
-    fn what_is_wrong_with_a_url_is_told_with_its_code() {
-        let long = format!("http://erp.example.com/{}", "x".repeat(MAX_URL_BYTES));
-        let table = [
-            (long.as_str(), CallbackFault::TooLong, "out_of_range"),
-            ("erp.example.com", CallbackFault::NotAUrl(url::ParseError::RelativeUrlWithoutBase), "bad_callback_url"),
-            ("http://", CallbackFault::NotAUrl(url::ParseError::EmptyHost), "bad_callback_url"),
-            ("ftp://erp.example.com/", CallbackFault::Scheme, "bad_callback_url"),
-            ("file:///etc/passwd", CallbackFault::Scheme, "bad_callback_url"),
-            ("http://me@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
-            ("http://:word@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
-            ("http://erp.example.com/#top", CallbackFault::Fragment, "bad_callback_url"),
-            ("http://evil.org/", CallbackFault::NotListed("evil.org".to_owned()), "callback_not_allowed"),
-        ];
-        for (url, fault, code) in table {
-            assert_eq!((allow("erp.example.com").check(url).unwrap_err(), fault.code()), (fault, code), "{url}");
-        }
-        let longest = &long[..MAX_URL_BYTES];
-        assert_eq!(allow("erp.example.com").check(longest).unwrap().as_str(), longest);
     }
 
     #[test]

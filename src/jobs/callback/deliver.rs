@@ -10,8 +10,9 @@ use reqwest::{Client, StatusCode};
 use tokio::task::JoinSet;
 use tokio::time::{sleep, timeout};
 
-use super::allow::{CallbackAllow, CallbackFault, CallbackUrl};
+use super::allow::CallbackAllow;
 use super::client::{client_builder, innermost, trusted_roots};
+use super::destination::{CallbackFault, CallbackUrl};
 use super::resolve::{AllowedAddresses, Lookup, system};
 use super::sign::{CallbackSecret, SIGNATURE_HEADER, TIMESTAMP_HEADER};
 use super::silent::SilentReceivers;
@@ -21,7 +22,7 @@ use crate::jobs::store::{Callback, Delivery, Store};
 use crate::jobs::timestamp::Timestamp;
 
 /// Tries at a time. Each holds a job with its answer, a few megabytes at the most, and a connection.
-const MAX_IN_FLIGHT: usize = 32;
+pub(super) const MAX_IN_FLIGHT: usize = 32;
 /// Tries for one callback. With the pauses between them they last over four minutes: a receiver may restart meanwhile.
 pub(super) const MAX_TRIES: u32 = 8;
 /// How much of a receiver's answer is read, so that it can hand over the few words that it has to say.
@@ -175,7 +176,8 @@ impl CallbackDelivery {
                 }
                 Ok(None) => return,
                 Err(error) => {
-                    tracing::warn!(%error, "callbacks wait");
+                    // Whoever else asks the store says so too, and not every second.
+                    tracing::debug!(%error, "callbacks wait");
                     return;
                 }
             }

@@ -7,14 +7,16 @@ mod address;
 mod allow;
 mod client;
 mod deliver;
+mod destination;
 mod resolve;
 mod sign;
 mod silent;
 #[cfg(test)]
 mod tests;
 
-pub use allow::{CallbackAllow, CallbackFault, CallbackUrl};
+pub use allow::CallbackAllow;
 pub(crate) use client::innermost;
 pub use client::{client_builder, trusted_roots};
 pub use deliver::CallbackDelivery;
+pub use destination::{CallbackFault, CallbackUrl};
 pub use sign::CallbackSecret;

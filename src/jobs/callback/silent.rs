@@ -6,6 +6,9 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::jobs::timestamp::Timestamp;
 
+/// Receivers to whom nothing has gone for so many rests are forgotten: nobody waits for them.
+const REMEMBERED: u32 = 10;
+
 /// Which receivers let the last try run out of time. Each gets one try at a time until it answers.
 #[derive(Debug)]
 pub(super) struct SilentReceivers {
@@ -42,8 +45,7 @@ impl SilentReceivers {
         if answered {
             until.remove(receiver);
         } else {
-            // Those to whom nothing has gone for long are forgotten: nobody waits for them.
-            until.retain(|_, at| now.since(*at) < 10 * self.rest);
+            until.retain(|_, at| now.since(*at) < REMEMBERED * self.rest);
             until.insert(receiver.to_owned(), now.after(self.rest));
         }
     }

@@ -10,10 +10,10 @@ use tokio::task::JoinHandle;
 
 use super::receiver::{Manner, Receiver, status, until};
 use super::store::Callbacks;
-use crate::jobs::callback::CallbackSecret;
-use crate::jobs::callback::deliver::{CallbackDelivery, MAX_TRIES, Pace};
+use crate::jobs::callback::deliver::{CallbackDelivery, MAX_IN_FLIGHT, MAX_TRIES, Pace, pause};
 use crate::jobs::callback::resolve::system;
-use crate::jobs::{Delivery, JobId, Timestamp};
+use crate::jobs::callback::{CallbackAllow, CallbackSecret};
+use crate::jobs::{Delivery, JobId, JobSettings, Timestamp};
 
 /// As in service, but for the pauses between tries.
 pub(super) const QUICK: Duration = Duration::from_millis(1);
@@ -99,7 +99,6 @@ async fn a_receiver_that_is_gone_for_good_is_asked_once() {
 
 #[tokio::test]
 async fn pauses_double_and_stay_below_five_minutes() {
-    use crate::jobs::callback::deliver::pause;
     let first = Pace::default().first_pause;
     let seconds: Vec<u64> = (1..MAX_TRIES).map(|tries| pause(first, tries).as_secs()).collect();
     assert_eq!(seconds, [2, 4, 8, 16, 32, 64, 128]);
@@ -134,6 +133,35 @@ async fn receivers_that_hang_hold_up_nobody_for_more_than_one_try() {
     until("a look at each of the others", || held.iter().all(|id| !store.settled(*id).is_empty())).await;
     let tried = hanging.received().len();
     assert!((1..150).contains(&tried), "{tried} of 200 were sent to a receiver that does not answer");
+}
+
+#[tokio::test]
+async fn no_more_than_so_many_are_under_way() {
+    let (store, receiver) = (Arc::new(Callbacks::default()), Receiver::start(&[Manner::Hang]).await);
+    for _ in 0..2 * MAX_IN_FLIGHT {
+        store.add(&receiver.url());
+    }
+    let _running = start(&store, pace());
+    until("as many as may be", || receiver.received().len() == MAX_IN_FLIGHT).await;
+    // A wrong one more has time to come.
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    assert_eq!(receiver.received().len(), MAX_IN_FLIGHT);
+}
+
+#[tokio::test]
+async fn nobody_is_told_without_a_list_and_a_secret() {
+    let on = JobSettings {
+        callback_allow: "erp.example.com".parse().unwrap(),
+        callback_secret: Some(secret()),
+        ..JobSettings::default()
+    };
+    let unlisted = JobSettings { callback_allow: CallbackAllow::default(), ..on.clone() };
+    let unsigned = JobSettings { callback_secret: None, ..on.clone() };
+    for (settings, told) in [(on, true), (unlisted, false), (unsigned, false)] {
+        let store = Arc::new(Callbacks::default());
+        let delivery = CallbackDelivery::new(store as _, &settings, |_| Vec::new()).unwrap();
+        assert_eq!(delivery.is_some(), told, "{settings:?}");
+    }
 }
 
 #[tokio::test]
