@@ -13,6 +13,7 @@ use tokio_util::task::TaskTracker;
 use super::app::App;
 use super::connections::Connections;
 use super::settings::ServerSettings;
+use crate::jobs::{self, CallbackDelivery};
 use crate::workers::Engine;
 
 /// The share of the time for draining after which what still runs is to deliver the best so far. The rest is for those
@@ -45,44 +46,57 @@ pub async fn run_with(
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let app = Arc::new(App::start(settings, engine).await?);
-    let workers = Workers::begin(&app);
+    let background = Background::begin(&app)?;
     let mut connections = Connections::new(listener, Arc::clone(&app));
     connections.serve_until(shutdown).await;
-    drain(&app, connections, &workers).await;
+    drain(&app, connections, &background).await;
     Ok(())
 }
 
-/// The workers for jobs.
-struct Workers {
-    tasks: TaskTracker,
+/// What goes on behind the requests: workers for jobs, and callbacks.
+struct Background {
+    jobs: TaskTracker,
     /// Whoever still has a job then hands it back.
     over: CancellationToken,
+    callbacks: TaskTracker,
+    /// No callback is tried any more.
+    silence: CancellationToken,
 }
 
-impl Workers {
-    fn begin(app: &App) -> Self {
-        let (tasks, over) = (TaskTracker::new(), CancellationToken::new());
-        tasks.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
-        tasks.close();
-        Self { tasks, over }
+impl Background {
+    /// # Errors
+    /// If the system gives no client for callbacks.
+    fn begin(app: &App) -> io::Result<Self> {
+        let (jobs, over) = (TaskTracker::new(), CancellationToken::new());
+        jobs.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
+        jobs.close();
+        let (callbacks, silence) = (TaskTracker::new(), CancellationToken::new());
+        let delivery = CallbackDelivery::new(Arc::clone(&app.store), &app.settings.jobs, jobs::message);
+        if let Some(delivery) = delivery.map_err(io::Error::other)? {
+            callbacks.spawn(delivery.run(silence.clone().cancelled_owned()));
+        }
+        callbacks.close();
+        Ok(Self { jobs, over, callbacks, silence })
     }
 }
 
 /// Answer what has been asked and end what runs, within the time for draining. Connections are accepted all the while, so
 /// that probes see that the service is not ready; what would begin anew is refused.
-async fn drain(app: &Arc<App>, mut connections: Connections, workers: &Workers) {
+async fn drain(app: &Arc<App>, mut connections: Connections, background: &Background) {
     let began = Instant::now();
     let (last_words, end) = (began + app.settings.drain.mul_f64(RUNNING_SHARE), began + app.settings.drain);
     app.drain();
-    if !connections.answer_until(last_words, workers.tasks.wait()).await {
+    if !connections.answer_until(last_words, background.jobs.wait()).await {
         app.finish_soon();
-        workers.over.cancel();
-        if !connections.answer_until(end, workers.tasks.wait()).await {
+        background.over.cancel();
+        if !connections.answer_until(end, background.jobs.wait()).await {
             tracing::warn!("some clients did not take their answers, or some jobs could not be handed back");
         }
     }
     // Whoever is connected still has asked nothing, or takes no answer.
     drop(connections);
+    background.silence.cancel();
+    background.callbacks.wait().await;
     end_computations(app, end.max(Instant::now() + LAST_LOOK)).await;
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::Failure;
 use crate::config::{self, Stated};
+use crate::jobs::{client_builder, innermost, trusted_roots};
 
 /// How long the service may take to say that it is ready.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -47,18 +48,8 @@ fn own_url(listen: SocketAddr) -> String {
 }
 
 async fn ask(url: &str) -> Result<reqwest::StatusCode, reqwest::Error> {
-    // A proxy of the environment would be asked about the wrong machine.
-    let client = reqwest::Client::builder().timeout(PATIENCE).no_proxy().build()?;
+    let client = client_builder(trusted_roots()).timeout(PATIENCE).build()?;
     Ok(client.get(url).send().await?.status())
-}
-
-/// The cause that says something: "connection refused" rather than "error sending request".
-fn innermost(error: &dyn core::error::Error) -> String {
-    let mut cause = error;
-    while let Some(source) = cause.source() {
-        cause = source;
-    }
-    cause.to_string()
 }
 
 #[cfg(test)]

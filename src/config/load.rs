@@ -105,10 +105,17 @@ fn variables(
     (file, found.into_iter().map(|(at, text)| (&SETTINGS[at], text)).collect())
 }
 
+/// What is wrong, and in which line, but not the line itself: it may hold a secret.
+fn described(error: &toml::de::Error, text: &str) -> String {
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let line = before.map(|before| format!("line {}: ", before.matches('\n').count() + 1));
+    format!("{}{}", line.unwrap_or_default(), error.message())
+}
+
 /// The settings in a TOML file.
 fn read(path: &Path, faults: &mut Vec<String>) -> Vec<(&'static Setting, Source, String)> {
     let table = std::fs::read_to_string(path).map_err(|error| error.to_string());
-    let table = table.and_then(|text| text.parse::<toml::Table>().map_err(|error| error.to_string()));
+    let table = table.and_then(|text| text.parse::<toml::Table>().map_err(|error| described(&error, &text)));
     let table = match table {
         Ok(table) => table,
         Err(detail) => {
@@ -182,6 +189,38 @@ mod tests {
             format!("thread in {at}: there is no such setting"),
         ];
         assert_eq!(faults, expected);
+    }
+
+    #[test]
+    fn no_fault_shows_a_secret() {
+        let texts = [
+            "callback_secret = 'quiet\n",
+            "log = 'warn'\ncallback_secret = \"quiet\\x\"\n",
+            "callback_secret = 'quiet'\n",
+        ];
+        for (at, text) in texts.into_iter().enumerate() {
+            let path = file(&format!("secret-{at}"), text);
+            let stated = Stated { config: Some(path.clone()), flags: vec![flag("callback_secret", "quiet")] };
+            let ConfigError(faults) = load(&stated, variables(&[("SINGULATE_CALLBACK_SECRET", "quiet")])).unwrap_err();
+            std::fs::remove_file(path).unwrap();
+            assert!(faults.len() == 3 && !faults.concat().contains("quiet"), "{faults:?}");
+            assert!(at == 2 || faults[0].contains(&format!("line {}: ", at + 1)), "{faults:?}");
+        }
+        let long = "quiet as a mouse in a box";
+        let stated = Stated { config: None, flags: vec![flag("callback_secret", long)] };
+        let config = load(&stated, []).unwrap();
+        let shown = SETTINGS.iter().map(|setting| (setting.get)(&config)).collect::<String>();
+        assert!(!format!("{config:?}{config:#?}{shown}").contains("quiet"));
+    }
+
+    #[test]
+    fn a_service_that_calls_back_has_a_secret() {
+        let allow = flag("callback_allow", "erp.example.com");
+        let secret = flag("callback_secret", "0123456789abcdef");
+        for (flags, sound) in [(vec![], true), (vec![allow.clone()], false), (vec![allow, secret], true)] {
+            let config = load(&Stated { config: None, flags }, []).unwrap();
+            assert_eq!(config.check_service().is_ok(), sound);
+        }
     }
 
     #[test]

@@ -25,6 +25,21 @@ pub struct Config {
     pub log_format: LogFormat,
 }
 
+impl Config {
+    /// What a service needs beyond settings that are sound one by one.
+    ///
+    /// # Errors
+    /// What is missing.
+    pub fn check_service(&self) -> Result<(), ConfigError> {
+        let jobs = &self.server.jobs;
+        if !jobs.callback_allow.is_empty() && jobs.callback_secret.is_none() {
+            let fault = "callback_allow needs callback_secret: a receiver could not tell our callbacks from others'";
+            return Err(ConfigError(vec![fault.to_owned()]));
+        }
+        Ok(())
+    }
+}
+
 impl Default for Config {
     fn default() -> Self {
         Self {

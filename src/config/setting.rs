@@ -28,7 +28,7 @@ pub struct Setting {
     pub help: &'static str,
     /// Writes a value into the configuration, or says what is wrong with it.
     pub set: fn(&mut Config, &str) -> Result<(), String>,
-    /// The value as `set` would take it.
+    /// The value as `set` would take it; of a secret only whether there is one.
     pub get: fn(&Config) -> String,
 }
 
@@ -195,6 +195,28 @@ pub static SETTINGS: &[Setting] = &[
         get: |config| config.server.drain.as_millis().to_string(),
     },
     Setting {
+        name: "callback_allow",
+        scope: Scope::Service,
+        placeholder: "HOSTS",
+        help: "Who may be told of a job's end: names, *.name, addresses, ranges; separated by commas",
+        set: |config, text| {
+            config.server.jobs.callback_allow = text.parse()?;
+            Ok(())
+        },
+        get: |config| config.server.jobs.callback_allow.to_string(),
+    },
+    Setting {
+        name: "callback_secret",
+        scope: Scope::Service,
+        placeholder: "SECRET",
+        help: "What callbacks are signed with; better set by the variable, which other users can't list",
+        set: |config, text| {
+            config.server.jobs.callback_secret = if text == "none" { None } else { Some(text.parse()?) };
+            Ok(())
+        },
+        get: |config| if config.server.jobs.callback_secret.is_some() { "hidden" } else { "none" }.to_owned(),
+    },
+    Setting {
         name: "max_objects",
         scope: Scope::Planning,
         placeholder: "N",
@@ -326,7 +348,9 @@ mod tests {
         for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = (setting.set)(&mut Config::default(), text);
-                assert!(outcome.is_err() || setting.name == "log", "{} takes '{text}'", setting.name);
+                // A host may be called so.
+                let host = setting.name == "callback_allow" && text == "1e99";
+                assert!(outcome.is_err() || setting.name == "log" || host, "{} takes '{text}'", setting.name);
             }
         }
     }

@@ -50,6 +50,12 @@ impl Job {
     }
 }
 
+/// The body of a callback.
+pub fn message(job: &Job) -> Vec<u8> {
+    // It is made of strings and numbers.
+    serde_json::to_vec(&job.body()).unwrap_or_default()
+}
+
 fn word(state: JobState) -> JobStateWord {
     match state {
         JobState::Queued => JobStateWord::Queued,

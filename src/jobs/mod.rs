@@ -4,6 +4,7 @@
 //! [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
 
 mod body;
+mod callback;
 mod held;
 mod hints;
 mod job;
@@ -16,6 +17,11 @@ mod sweeper;
 mod timestamp;
 mod work;
 
+pub use body::message;
+pub(crate) use callback::innermost;
+pub use callback::{
+    CallbackAllow, CallbackDelivery, CallbackFault, CallbackSecret, CallbackUrl, client_builder, trusted_roots,
+};
 pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
 pub use runner::Runner;

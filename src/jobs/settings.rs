@@ -3,6 +3,8 @@
 use core::time::Duration;
 use std::thread::available_parallelism;
 
+use super::callback::{CallbackAllow, CallbackSecret};
+
 /// The settings of jobs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JobSettings {
@@ -16,6 +18,10 @@ pub struct JobSettings {
     pub lease: Duration,
     /// How long a job may wait, and for how long an ended one is kept.
     pub ttl: Duration,
+    /// Who may be told of the end of a job.
+    pub callback_allow: CallbackAllow,
+    /// How they know that it is us. There are no callbacks without.
+    pub callback_secret: Option<CallbackSecret>,
 }
 
 impl Default for JobSettings {
@@ -26,6 +32,8 @@ impl Default for JobSettings {
             max_queued: 10_000,
             lease: Duration::from_secs(10),
             ttl: Duration::from_hours(1),
+            callback_allow: CallbackAllow::default(),
+            callback_secret: None,
         }
     }
 }

@@ -53,6 +53,22 @@ fn the_service_says_where_it_is_and_what_to_paste_and_is_healthy() {
 }
 
 #[test]
+fn the_health_check_needs_no_certificates() {
+    let service = Service::start();
+    let mut check = singulate(&["healthcheck", "--url", &format!("{}/readyz", service.url)]);
+    check.env("SSL_CERT_FILE", "/nowhere.pem").env("SSL_CERT_DIR", "/nowhere");
+    assert_eq!(answered(check.output().unwrap()), "");
+}
+
+#[test]
+fn a_service_that_calls_back_needs_a_secret_and_does_not_show_it() {
+    let args = ["serve", "--listen", "127.0.0.1:0", "--callback-allow", "erp.example.com"];
+    assert!(failed(&run(&args), 2).starts_with("callback_allow needs callback_secret"));
+    let errors = failed(&run(&[&args[..], &["--callback-secret", "too-short"]].concat()), 2);
+    assert!(errors.starts_with("--callback-secret: ") && !errors.contains("too-short"), "{errors}");
+}
+
+#[test]
 fn a_service_that_is_not_there_is_not_healthy() {
     // Port 9 discards; nobody listens there on this machine.
     failed(&run(&["healthcheck", "--url", "http://127.0.0.1:9/readyz"]), 1);

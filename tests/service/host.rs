@@ -10,6 +10,7 @@ use singulate::api::server::run_with;
 use singulate::api::{Engine, ServerSettings};
 use singulate::budget::Budget;
 use singulate::jobs::JobSettings;
+use singulate::jobs::{client_builder, trusted_roots};
 use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate::scene::Scene;
 use tokio::net::TcpListener;
@@ -44,7 +45,7 @@ impl Host {
             // A host that is dropped stops too.
             let _ = stopped.await;
         }));
-        let client = reqwest::Client::builder().no_proxy().build().unwrap();
+        let client = client_builder(trusted_roots()).build().unwrap();
         Self { address, client, stop, task }
     }
 

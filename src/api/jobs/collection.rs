@@ -12,7 +12,7 @@ use axum::response::Response;
 use super::accepted::accepted;
 use super::problems::{JobProblems, not_accepted, unavailable};
 use super::query::Parameters;
-use super::submission::{key, new_jobs};
+use super::submission::{Shape, check_callbacks, key, new_jobs};
 use crate::api::app::App;
 use crate::api::document::RequestProblems;
 use crate::api::reading::Read;
@@ -47,7 +47,7 @@ const DEFAULT_PAGE: u64 = 20;
 )]
 pub(in crate::api) async fn submit(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
     let read: Read<Vec<JobRequest>> = |body, limits| Ok(vec![read_job(body, limits)?]);
-    let jobs = take(&app, request, read).await?;
+    let jobs = take(&app, request, (read, Shape::One)).await?;
     let job = jobs.first().ok_or_else(crate::api::problem::internal)?;
     Ok(accepted(Some(job.id), job.body()))
 }
@@ -70,7 +70,7 @@ pub(in crate::api) async fn submit(State(app): State<Arc<App>>, request: Request
     )
 )]
 pub(in crate::api) async fn batch(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
-    let jobs = take(&app, request, read_batch).await?;
+    let jobs = take(&app, request, (read_batch, Shape::Batch)).await?;
     Ok(accepted(None, JobsBody { jobs: jobs.iter().map(Job::body).collect() }))
 }
 
@@ -110,14 +110,22 @@ pub(in crate::api) async fn list(
 }
 
 /// The jobs that a body asks for, kept by the store.
-async fn take(app: &Arc<App>, request: Request<Body>, read: Read<Vec<JobRequest>>) -> Result<Vec<Job>, Problem> {
+async fn take(
+    app: &Arc<App>,
+    request: Request<Body>,
+    (read, shape): (Read<Vec<JobRequest>>, Shape),
+) -> Result<Vec<Job>, Problem> {
     let arrival = Instant::now();
     app.takes_work()?;
     let key = key(request.headers())?;
     let body = body::receive(request, &app.settings).await?;
-    let owner = Owner::anonymous();
+    let (owner, allow) = (Owner::anonymous(), app.settings.jobs.callback_allow.clone());
     let own = owner.clone();
-    let new = move |body: &[u8], limits: &RequestLimits| Ok(new_jobs(read(body, limits)?, body, &own, key.as_deref()));
+    let new = move |body: &[u8], limits: &RequestLimits| {
+        let mut requests = read(body, limits)?;
+        check_callbacks(&mut requests, shape, &allow)?;
+        Ok(new_jobs(requests, body, &own, key.as_deref()))
+    };
     let jobs = app.read(&owner, arrival, body, new).await?;
     if let [job] = &jobs[..] {
         log::note_scene(job.scene_id.as_deref());

@@ -4,7 +4,7 @@ use axum::http::{HeaderMap, HeaderName};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::jobs::{JobId, NewJob, Owner};
+use crate::jobs::{CallbackAllow, JobId, NewJob, Owner};
 use crate::wire::{ErrorItem, JobRequest, Problem, SceneBody};
 
 const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
@@ -26,6 +26,37 @@ pub(super) fn key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
             Err(Problem::invalid(vec![ErrorItem { code: "idempotency_key", pointer: String::new(), detail }]))
         }
     }
+}
+
+/// Whose callbacks stand where in a body.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    /// The body is one job.
+    One,
+    /// The body is a list of jobs.
+    Batch,
+}
+
+/// May whoever is to be told be told? Each callback's URL is written in its one form.
+///
+/// # Errors
+/// A problem that names each that may not.
+pub(super) fn check_callbacks(requests: &mut [JobRequest], shape: Shape, allow: &CallbackAllow) -> Result<(), Problem> {
+    let mut faults = Vec::new();
+    for (position, request) in requests.iter_mut().enumerate() {
+        let Some(url) = &mut request.callback_url else { continue };
+        match allow.check(url) {
+            Ok(checked) => *url = checked.as_str().to_owned(),
+            Err(fault) => {
+                let pointer = match shape {
+                    Shape::One => "/callback_url".to_owned(),
+                    Shape::Batch => format!("/scenes/{position}/callback_url"),
+                };
+                faults.push(ErrorItem { code: fault.code(), pointer, detail: fault.to_string() });
+            }
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(Problem::invalid(faults)) }
 }
 
 /// New jobs for the requests of one body.

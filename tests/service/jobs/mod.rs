@@ -1,5 +1,6 @@
 //! Jobs over HTTP.
 
+mod callbacks;
 mod ends;
 mod events;
 mod requests;

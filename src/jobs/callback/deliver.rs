@@ -1,0 +1,264 @@
+//! Delivers callbacks: at least once, or gives up after a while.
+
+use core::fmt;
+use core::time::Duration;
+use std::sync::Arc;
+
+use reqwest::header::CONTENT_TYPE;
+use reqwest::redirect::Policy;
+use reqwest::{Client, StatusCode};
+use tokio::task::JoinSet;
+use tokio::time::{sleep, timeout};
+
+use super::allow::CallbackAllow;
+use super::client::{client_builder, innermost, trusted_roots};
+use super::destination::{CallbackFault, CallbackUrl};
+use super::resolve::{AllowedAddresses, Lookup, system};
+use super::sign::{CallbackSecret, SIGNATURE_HEADER, TIMESTAMP_HEADER};
+use super::silent::SilentReceivers;
+use crate::jobs::job::{Job, JobId};
+use crate::jobs::settings::JobSettings;
+use crate::jobs::store::{Callback, Delivery, Store};
+use crate::jobs::timestamp::Timestamp;
+
+/// Tries at a time. Each holds a job with its answer, a few megabytes at the most, and a connection.
+pub(super) const MAX_IN_FLIGHT: usize = 32;
+/// Tries for one callback. With the pauses between them they last over four minutes: a receiver may restart meanwhile.
+pub(super) const MAX_TRIES: u32 = 8;
+/// How much of a receiver's answer is read, so that it can hand over the few words that it has to say.
+const MAX_ANSWER_BYTES: usize = 16_384;
+
+/// How long things may take.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    /// A connection. Whoever is there at all is there by then, on a bad line too.
+    pub(super) connecting: Duration,
+    /// A whole try, from resolving the host to the end of the answer.
+    pub(super) a_try: Duration,
+    /// Between the first try and the second. It doubles with each try; the last pause, 128 s, is below five minutes.
+    pub(super) first_pause: Duration,
+    /// Nobody else gets the callback while we try: a try, and time for a slow store to hear what came of it.
+    pub(super) lease: Duration,
+    /// Between two looks at the store. Hints come sooner; pauses between tries are no less exact than this.
+    pub(super) poll: Duration,
+    /// What tries under way get at the end: enough for a receiver that is about to answer.
+    pub(super) farewell: Duration,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self {
+            connecting: Duration::from_secs(5),
+            a_try: Duration::from_secs(10),
+            first_pause: Duration::from_secs(2),
+            lease: Duration::from_secs(30),
+            poll: Duration::from_secs(1),
+            farewell: Duration::from_secs(1),
+        }
+    }
+}
+
+/// What is said of a job. The same for the same job, and with the job's id: a receiver may hear it more than once.
+pub(super) type Message = fn(&Job) -> Vec<u8>;
+
+/// Tells those who handed jobs in of their ends.
+pub struct CallbackDelivery {
+    store: Arc<dyn Store>,
+    allow: Arc<CallbackAllow>,
+    secret: CallbackSecret,
+    message: Message,
+    client: Client,
+    silent: SilentReceivers,
+    pace: Pace,
+}
+
+/// Why a try failed.
+enum TryFault {
+    /// The list has become shorter since the job was accepted.
+    NotAllowed(CallbackFault),
+    /// The receiver does not answer others either; nothing was sent before this moment.
+    Silent(Timestamp),
+    /// No answer: not resolved, not reached, not trusted, or too slow.
+    NoAnswer(reqwest::Error),
+    /// An answer that says no.
+    Answer(StatusCode),
+}
+
+impl fmt::Display for TryFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotAllowed(fault) => fault.fmt(f),
+            Self::Silent(_) => f.write_str("not sent: the receiver does not answer"),
+            Self::NoAnswer(error) => write!(f, "{}", innermost(error)),
+            Self::Answer(status) => write!(f, "the receiver answered {status}"),
+        }
+    }
+}
+
+impl CallbackDelivery {
+    /// Ready to run; `None` where nobody is to be told. `message` makes the body of a callback from its job.
+    ///
+    /// # Errors
+    /// If the system gives no client.
+    pub fn new(
+        store: Arc<dyn Store>,
+        settings: &JobSettings,
+        message: Message,
+    ) -> Result<Option<Self>, reqwest::Error> {
+        let Some(secret) = settings.callback_secret.clone() else { return Ok(None) };
+        if settings.callback_allow.is_empty() {
+            return Ok(None);
+        }
+        let roots = trusted_roots();
+        if roots.is_empty() {
+            tracing::warn!("no certificates of authorities on this machine: callbacks by https will fail");
+        }
+        let allow = Arc::new(settings.callback_allow.clone());
+        let pace = Pace::default();
+        let client = client(Arc::clone(&allow), system, roots, pace)?;
+        let silent = SilentReceivers::new(pace.a_try);
+        Ok(Some(Self { store, allow, secret, message, client, silent, pace }))
+    }
+
+    #[cfg(test)]
+    pub(super) fn for_tests(
+        store: Arc<dyn Store>,
+        allow: &str,
+        secret: &CallbackSecret,
+        (lookup, roots, pace): (Lookup, rustls::RootCertStore, Pace),
+    ) -> Self {
+        let allow: Arc<CallbackAllow> = Arc::new(allow.parse().unwrap());
+        let client = client(Arc::clone(&allow), lookup, roots, pace).unwrap();
+        let silent = SilentReceivers::new(pace.a_try);
+        let message: Message = |job| format!("{{\"id\":\"{}\"}}", job.id).into_bytes();
+        Self { store, allow, secret: secret.clone(), message, client, silent, pace }
+    }
+
+    /// Deliver what is due until `shutdown` is done. What is not delivered by then stays in the store.
+    pub async fn run(self, shutdown: impl Future<Output = ()>) {
+        let this = Arc::new(self);
+        let mut tries = JoinSet::new();
+        tokio::select! {
+            () = shutdown => {}
+            () = this.keep_on(&mut tries) => {}
+        }
+        let settled = async { while tries.join_next().await.is_some() {} };
+        if timeout(this.pace.farewell, settled).await.is_err() {
+            tracing::info!(tries = tries.len(), "callbacks under way will be tried again");
+        }
+        tries.shutdown().await;
+    }
+
+    async fn keep_on(self: &Arc<Self>, tries: &mut JoinSet<()>) {
+        loop {
+            let mut hint = core::pin::pin!(self.store.hints().callbacks.notified());
+            hint.as_mut().enable();
+            self.begin_due(tries).await;
+            tokio::select! {
+                Some(ended) = tries.join_next() => {
+                    if let Err(error) = ended {
+                        tracing::error!(%error, "a callback's try broke off");
+                    }
+                }
+                () = hint => {}
+                () = sleep(self.pace.poll) => {}
+            }
+        }
+    }
+
+    /// Begin what is due, as far as there is room.
+    async fn begin_due(self: &Arc<Self>, tries: &mut JoinSet<()>) {
+        while tries.len() < MAX_IN_FLIGHT {
+            match self.store.take_callback(self.pace.lease, Timestamp::now()).await {
+                Ok(Some(callback)) => {
+                    let this = Arc::clone(self);
+                    tries.spawn(async move { this.deal_with(callback).await });
+                }
+                Ok(None) => return,
+                Err(error) => {
+                    // Whoever else asks the store says so too, and not every second.
+                    tracing::debug!(%error, "callbacks wait");
+                    return;
+                }
+            }
+        }
+    }
+
+    async fn deal_with(&self, callback: Callback) {
+        let (id, attempt) = (callback.job.id, callback.attempt);
+        let delivery = match self.try_once(&callback).await {
+            Ok(()) => Delivery::Over,
+            Err(fault) => self.after(&fault, id, attempt),
+        };
+        if let Err(error) = self.store.settle_callback(id, attempt, delivery).await {
+            tracing::warn!(job = %id, %error, "a callback may be repeated");
+        }
+    }
+
+    /// What to do after a failed try.
+    fn after(&self, fault: &TryFault, id: JobId, attempt: u32) -> Delivery {
+        let unwanted = matches!(fault, TryFault::Answer(StatusCode::GONE));
+        if unwanted || attempt >= MAX_TRIES {
+            tracing::warn!(job = %id, attempt, %fault, "a callback is given up");
+            return Delivery::Over;
+        }
+        tracing::info!(job = %id, attempt, %fault, "a callback was not delivered yet");
+        let next = Timestamp::now().after(pause(self.pace.first_pause, attempt));
+        match fault {
+            TryFault::Silent(until) => Delivery::Again(next.max(*until)),
+            _ => Delivery::Again(next),
+        }
+    }
+
+    async fn try_once(&self, callback: &Callback) -> Result<(), TryFault> {
+        let url = self.allow.check(&callback.url).map_err(TryFault::NotAllowed)?;
+        let receiver = url.receiver();
+        self.silent.admit(&receiver, Timestamp::now()).map_err(TryFault::Silent)?;
+        let answer = self.post(&url, (self.message)(&callback.job)).await;
+        let answered = !answer.as_ref().is_err_and(reqwest::Error::is_timeout);
+        self.silent.note(&receiver, answered, Timestamp::now());
+        let status = answer.map_err(TryFault::NoAnswer)?;
+        if status.is_success() { Ok(()) } else { Err(TryFault::Answer(status)) }
+    }
+
+    async fn post(&self, url: &CallbackUrl, body: Vec<u8>) -> Result<StatusCode, reqwest::Error> {
+        let timestamp = (Timestamp::now().as_millis() / 1000).to_string();
+        let signature = self.secret.sign(&timestamp, &body);
+        let request = self.client.post(url.url().clone()).header(CONTENT_TYPE, "application/json");
+        let request = request.header(TIMESTAMP_HEADER, timestamp).header(SIGNATURE_HEADER, signature);
+        let mut response = request.body(body).send().await?;
+        let mut read = 0;
+        // The status alone counts; whatever goes wrong behind it does not.
+        while let Ok(Some(part)) = response.chunk().await {
+            read += part.len();
+            if read > MAX_ANSWER_BYTES {
+                break;
+            }
+        }
+        Ok(response.status())
+    }
+}
+
+/// How long to wait after so many tries.
+pub(super) fn pause(first: Duration, tries: u32) -> Duration {
+    first * 2_u32.pow(tries.clamp(1, MAX_TRIES) - 1)
+}
+
+/// A client that goes only where the list allows: no proxy, no redirect, no connection kept from an earlier call.
+fn client(
+    allow: Arc<CallbackAllow>,
+    lookup: Lookup,
+    roots: rustls::RootCertStore,
+    pace: Pace,
+) -> Result<Client, reqwest::Error> {
+    client_builder(roots)
+        .dns_resolver(AllowedAddresses::new(allow, lookup))
+        .redirect(Policy::none())
+        .retry(reqwest::retry::never())
+        .referer(false)
+        .pool_max_idle_per_host(0)
+        .connect_timeout(pace.connecting)
+        .timeout(pace.a_try)
+        .user_agent(concat!("singulate/", env!("CARGO_PKG_VERSION")))
+        .build()
+}

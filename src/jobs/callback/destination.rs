@@ -1,0 +1,133 @@
+//! Where a callback goes, and why it may not.
+
+use url::Url;
+
+/// The longest URL of a callback. Every receiver and every proxy before it takes that much.
+const MAX_URL_BYTES: usize = 2_000;
+
+/// Where a callback goes. It keeps every rule that can be told without resolving its host.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CallbackUrl(Url);
+
+/// Why a callback may not be.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CallbackFault {
+    /// Longer than any URL should be.
+    #[error("a callback's URL has at most {MAX_URL_BYTES} bytes")]
+    TooLong,
+    /// No URL at all.
+    #[error("not a URL: {0}")]
+    NotAUrl(url::ParseError),
+    /// Not a scheme that callbacks go by.
+    #[error("a callback goes by http or https")]
+    Scheme,
+    /// A name or password within the URL, which would end up in logs on the way.
+    #[error("a callback's URL holds no name and no password")]
+    UserInfo,
+    /// A fragment, which no receiver ever sees.
+    #[error("a callback's URL has no fragment")]
+    Fragment,
+    /// Nobody is told at all.
+    #[error("this service makes no callbacks")]
+    Off,
+    /// The host is not listed.
+    #[error("'{0}' is not among the hosts that this service may call back")]
+    NotListed(String),
+    /// The host is listed by name, and where it lies may not be called.
+    #[error("'{0}' resolves to an address that is neither public nor listed")]
+    NotPublic(String),
+}
+
+impl CallbackFault {
+    /// As it is written everywhere.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::TooLong => "out_of_range",
+            Self::NotAUrl(_) | Self::Scheme | Self::UserInfo | Self::Fragment => "bad_callback_url",
+            Self::Off | Self::NotListed(_) | Self::NotPublic(_) => "callback_not_allowed",
+        }
+    }
+}
+
+impl CallbackUrl {
+    /// A URL that a callback could go to, whoever is listed.
+    pub(super) fn parse(text: &str) -> Result<Self, CallbackFault> {
+        if text.len() > MAX_URL_BYTES {
+            return Err(CallbackFault::TooLong);
+        }
+        let url = Url::parse(text).map_err(CallbackFault::NotAUrl)?;
+        if !["http", "https"].contains(&url.scheme()) {
+            return Err(CallbackFault::Scheme);
+        }
+        if !url.username().is_empty() || url.password().is_some() {
+            return Err(CallbackFault::UserInfo);
+        }
+        if url.fragment().is_some() {
+            return Err(CallbackFault::Fragment);
+        }
+        // What is kept is read again when it is due, and letters may have become longer.
+        if url.as_str().len() > MAX_URL_BYTES { Err(CallbackFault::TooLong) } else { Ok(Self(url)) }
+    }
+
+    /// As every reader of URLs understands it: `http://0x7f.1/` is `http://127.0.0.1/`.
+    pub fn as_str(&self) -> &str {
+        self.0.as_str()
+    }
+
+    pub(super) fn url(&self) -> &Url {
+        &self.0
+    }
+
+    pub(super) fn host(&self) -> &str {
+        self.0.host_str().unwrap_or_default()
+    }
+
+    /// Who is told: host and port.
+    pub(super) fn receiver(&self) -> String {
+        let port = self.0.port_or_known_default().unwrap_or_default();
+        format!("{}:{port}", self.host())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_url_is_told_with_its_code() {
+        let letters = format!("http://erp.example.com/{}", "é".repeat(MAX_URL_BYTES / 3));
+        let long = format!("http://erp.example.com/{}", "x".repeat(MAX_URL_BYTES));
+        let table = [
+            (long.as_str(), CallbackFault::TooLong, "out_of_range"),
+            (letters.as_str(), CallbackFault::TooLong, "out_of_range"),
+            ("erp.example.com", CallbackFault::NotAUrl(url::ParseError::RelativeUrlWithoutBase), "bad_callback_url"),
+            ("http://", CallbackFault::NotAUrl(url::ParseError::EmptyHost), "bad_callback_url"),
+            ("ftp://erp.example.com/", CallbackFault::Scheme, "bad_callback_url"),
+            ("file:///etc/passwd", CallbackFault::Scheme, "bad_callback_url"),
+            ("http://me@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
+            ("http://:word@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
+            ("http://erp.example.com/#top", CallbackFault::Fragment, "bad_callback_url"),
+        ];
+        for (url, fault, code) in table {
+            assert_eq!((CallbackUrl::parse(url).unwrap_err(), fault.code()), (fault, code), "{url}");
+        }
+        let longest = &long[..MAX_URL_BYTES];
+        assert_eq!(CallbackUrl::parse(longest).unwrap().as_str(), longest);
+    }
+
+    #[test]
+    fn what_the_list_forbids_has_one_code() {
+        let host = "erp.example.com".to_owned();
+        for fault in [CallbackFault::Off, CallbackFault::NotListed(host.clone()), CallbackFault::NotPublic(host)] {
+            assert_eq!(fault.code(), "callback_not_allowed");
+        }
+    }
+
+    #[test]
+    fn a_receiver_is_its_host_and_port() {
+        let table = [("http://a/x", "a:80"), ("https://A./", "a.:443"), ("http://[::1]:9/", "[::1]:9")];
+        for (url, receiver) in table {
+            assert_eq!(CallbackUrl::parse(url).unwrap().receiver(), receiver);
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Callbacks: whoever handed a job in is told of its end.
+//!
+//! Only receivers that the operator lists are told ([`CallbackAllow`]), each message is signed ([`CallbackSecret`]), and
+//! [`CallbackDelivery`] repeats it until the receiver has taken it or has had enough chances.
+
+mod address;
+mod allow;
+mod client;
+mod deliver;
+mod destination;
+mod resolve;
+mod sign;
+mod silent;
+#[cfg(test)]
+mod tests;
+
+pub use allow::CallbackAllow;
+pub(crate) use client::innermost;
+pub use client::{client_builder, trusted_roots};
+pub use deliver::CallbackDelivery;
+pub use destination::{CallbackFault, CallbackUrl};
+pub use sign::CallbackSecret;
