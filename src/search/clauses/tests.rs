@@ -91,6 +91,13 @@ proptest! {
     }
 }
 
+#[test]
+fn what_is_required_is_not_made_graspable_at_a_cost() {
+    // t←{a} or {b}, b←{c,d}, a, c and d free; b is required, and a is all that the target needs besides.
+    let options = [vec![vec![1], vec![2]], vec![vec![]], vec![vec![3, 4]], vec![vec![]], vec![vec![]]];
+    assert_eq!(by_clauses(&options, &[2], 1000, &Budget::unlimited()), Some((2, 2)));
+}
+
 /// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up instead.
 /// The lowest layer is free.
 fn stack() -> Vec<Vec<Vec<usize>>> {
