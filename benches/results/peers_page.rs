@@ -54,7 +54,8 @@ const REASONS: [(&str, &str); 4] = [
     (
         "stack",
         "many objects share what they need, so the linear programme over the landmarks leaves a wide gap to the optimum \
-        in whole numbers. Solvers that learn clauses over the options and bound with cores bound better.",
+        in whole numbers. Our search has to notice that before it turns to clauses over the options, with which the \
+        others begin.",
     ),
 ];
 

@@ -135,3 +135,40 @@ fn is_late(code: FaultCode) -> bool {
             | FaultCode::ReplayUnconfirmed
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{LowerBound, Plan, Settings, plan};
+    use crate::scene::scenes::TestScene;
+    use crate::search::LeastSet;
+
+    #[test]
+    fn what_the_search_knows_but_cannot_show_is_not_served() {
+        // Two fingers, and four plates round the target: those on two opposite sides have to go.
+        let scene = TestScene::new(2)
+            .finger(0.04, 0.05)
+            .disc("cup", 1.0, 1.0, 0.03)
+            .disc("east", 1.13, 1.0, 0.08)
+            .disc("north", 1.0, 1.13, 0.08)
+            .disc("west", 0.87, 1.0, 0.08)
+            .disc("south", 1.0, 0.87, 0.08)
+            .build("cup");
+        let answer = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap();
+        let Verdict::Relocate(Plan { bound: Some(proof), .. }) = &answer.verdict else { panic!("{answer:?}") };
+        assert_eq!((answer.optimal(), proof.cost), (Some(true), 2));
+        let served = |bound: LowerBound| {
+            let mut verdict = answer.verdict.clone();
+            *verdict.bound_mut().unwrap() = bound;
+            confirm(&scene, verdict, &Budget::unlimited())
+        };
+        // As if one landmark were missing without which the bound can't be shown.
+        let landmarks = proof.landmarks[..1].to_vec();
+        let known = LeastSet { bound: 2, shown: 1, landmarks: landmarks.clone(), ..LeastSet::default() };
+        let verdict = served(LowerBound::from(&known)).unwrap();
+        let Verdict::Relocate(plan) = &verdict else { panic!("{verdict:?}") };
+        assert_eq!((plan.cost(), plan.optimal()), (2, false));
+        assert_eq!(plan.bound, Some(LowerBound { cost: 1, landmarks: landmarks.clone() }));
+        assert!(matches!(served(LowerBound { cost: 2, landmarks }), Err(PlanError::Refused(_))));
+    }
+}

@@ -33,7 +33,7 @@ pub(super) enum Sought {
 
 impl From<&LeastSet> for LowerBound {
     fn from(known: &LeastSet) -> Self {
-        Self { cost: known.bound, landmarks: known.landmarks.clone() }
+        Self { cost: known.shown, landmarks: known.landmarks.clone() }
     }
 }
 

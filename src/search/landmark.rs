@@ -5,15 +5,21 @@ use super::pace::Pace;
 use super::problem::{Node, Problem};
 use crate::budget::Interrupted;
 
-/// Grow the allowed set of a chain that does not reach the target to a maximal one that still does not; return its
-/// complement, a landmark that is inclusion-minimal and disjoint from what was allowed. The chain comes back as it was.
+/// Grow the allowed set of a chain that does not reach the goal to a maximal one that still does not; return its
+/// complement, a landmark of the goal that is inclusion-minimal and disjoint from what was allowed. The chain comes back as
+/// it was.
 ///
 /// Only frontier nodes can be in the complement: permission for a node that can't be grasped changes nothing. Nodes far
-/// from the target are let go first, so that the landmark lies near the target, where it is small.
+/// from the target are let go first, so that its landmarks lie near it, where they are small.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub(super) fn extract(problem: &Problem, chain: &mut Chain<'_>, pace: &mut Pace<'_>) -> Result<Vec<Node>, Interrupted> {
+pub(super) fn extract(
+    problem: &Problem,
+    chain: &mut Chain<'_>,
+    goal: Node,
+    pace: &mut Pace<'_>,
+) -> Result<Vec<Node>, Interrupted> {
     let start = chain.mark();
     let mut landmark = Vec::new();
     let mut frontier = Queue::new(problem.movable());
@@ -25,11 +31,13 @@ pub(super) fn extract(problem: &Problem, chain: &mut Chain<'_>, pace: &mut Pace<
         }
         let mark = chain.mark();
         chain.allow(node);
-        if chain.reaches_target() {
+        if chain.is_graspable(goal) {
             chain.undo(mark);
             landmark.push(node);
         } else {
-            chain.graspable_since(mark).filter(|&node| chain.is_frontier(node)).for_each(|node| frontier.push(node));
+            // Nothing follows from the target.
+            let new = chain.graspable_since(mark).filter(|&node| node != problem.target() && chain.is_frontier(node));
+            new.for_each(|node| frontier.push(node));
         }
     }
     chain.undo(start);

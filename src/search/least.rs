@@ -1,6 +1,7 @@
 //! The main loop: hit, chain, learn.
 
 use super::chain::Chain;
+use super::clauses::{Known, Wishes};
 use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
 use super::pace::Pace;
 use super::problem::{Node, Problem};
@@ -10,6 +11,12 @@ use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
+/// Landmarks for each node after which cheap sets have taught what they can. Easy bases have fewer by far.
+const ENOUGH: usize = 4;
+/// How long least hitting sets and clauses go on at their first turns: choices, conflicts. Some tenths of a second; what
+/// hitting sets are good at takes fewer choices.
+const FIRST_TURN: (usize, u64) = (500, 50_000);
+
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
     let mut pace = Pace::new(budget);
@@ -18,15 +25,16 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
         Ok(None) => return Outcome::Underivable,
         Err(Interrupted) => return Outcome::Interrupted(None),
     };
-    let mut forced = necessary;
+    let (mut forced, mut excused) = (necessary, Vec::new());
     for object in &restriction.required {
         // What the target does not depend on is in no least set.
         let Some(node) = problem.node(*object) else { return Outcome::Underivable };
         if !forced.contains(&node) {
             forced.push(node);
+            excused.push(node);
         }
     }
-    let Ok(mut search) = Search::new(&problem, forced, &mut pace) else { return Outcome::Interrupted(None) };
+    let Ok(mut search) = Search::new(&problem, forced, excused, &mut pace) else { return Outcome::Interrupted(None) };
     match search.run(&mut pace) {
         Ok(()) => Outcome::Least(search.known(&mut pace)),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut pace))),
@@ -39,20 +47,30 @@ struct Search<'p> {
     chain: Chain<'p>,
     /// What is in every set: required, or a landmark by itself.
     forced: Vec<Node>,
+    /// What of that need not be graspable: it is required, whether it helps or not.
+    excused: Vec<Node>,
     /// All other landmarks.
     landmarks: Vec<Vec<Node>>,
     best: Vec<Node>,
     bound: usize,
+    /// As much of it as the landmarks prove.
+    shown: usize,
 }
 
 impl<'p> Search<'p> {
-    fn new(problem: &'p Problem, forced: Vec<Node>, pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
+    fn new(
+        problem: &'p Problem,
+        forced: Vec<Node>,
+        excused: Vec<Node>,
+        pace: &mut Pace<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut chain = Chain::new(problem);
         forced.iter().for_each(|&node| chain.allow(node));
         let best = incumbent::greedy(problem, pace)?;
         let best = incumbent::derivation(&mut chain, &best, pace).unwrap_or(best);
         let bound = forced.len();
-        let mut search = Self { problem, chain, forced, landmarks: Vec::new(), best: Vec::new(), bound };
+        let (landmarks, shown) = (Vec::new(), bound);
+        let mut search = Self { problem, chain, forced, excused, landmarks, best: Vec::new(), bound, shown };
         search.best = search.with_forced(best);
         Ok(search)
     }
@@ -63,7 +81,7 @@ impl<'p> Search<'p> {
         }
         let first = self.learn(&[], pace);
         // So far all are disjoint.
-        self.bound = self.forced.len() + self.landmarks.len();
+        self.show(self.forced.len() + self.landmarks.len());
         first?;
         self.learn_one_of_each();
         // Cheap sets first: each that fails teaches more landmarks.
@@ -78,36 +96,99 @@ impl<'p> Search<'p> {
                 self.raise_bound(pace)?;
                 continue;
             }
+            if self.landmarks.len() > ENOUGH * self.problem.movable() {
+                break;
+            }
             let candidate = hitting::greedy(&self.landmarks, pace)?;
             if !self.learn(&candidate, pace)? {
                 break;
             }
         }
-        while self.best.len() > self.bound {
-            let Some(hit) = self.least_hitting_set(pace)? else { break };
+        self.settle(FIRST_TURN, pace)
+    }
+
+    /// Least hitting sets and clauses in turn, each turn twice as long as the one before: nobody knows which of the two
+    /// comes to an end.
+    fn settle(&mut self, first: (usize, u64), pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        let (mut choices, mut conflicts) = first;
+        let mut wishes = None;
+        loop {
+            if self.settle_by_hitting(choices, pace)? {
+                return Ok(());
+            }
+            let known = Known {
+                problem: self.problem,
+                forced: &self.forced,
+                excused: &self.excused,
+                landmarks: &self.landmarks,
+            };
+            let mut by_clauses = wishes.take().map_or_else(|| Wishes::new(&known, pace), Ok)?;
+            let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, pace));
+            self.bound = self.bound.max(by_clauses.bound());
             pace.note(self.best.len(), self.bound);
-            self.learn(&hit, pace)?;
+            if self.best.len() <= self.bound {
+                return Ok(());
+            }
+            raised?;
+            wishes = Some(by_clauses);
+            (choices, conflicts) = (choices.saturating_mul(2), conflicts.saturating_mul(2));
         }
-        Ok(())
+    }
+
+    /// True if that many choices are enough.
+    fn settle_by_hitting(&mut self, mut choices: usize, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+        while self.best.len() > self.bound {
+            pace.note(self.best.len(), self.bound);
+            match self.least_hitting_set(&mut choices, pace) {
+                Ok(Some(hit)) => self.learn(&hit, pace)?,
+                Ok(None) => return Ok(true),
+                Err(Interrupted) if choices == 0 => return Ok(false),
+                Err(Interrupted) => return Err(Interrupted),
+            };
+        }
+        Ok(true)
+    }
+
+    /// No set is smaller, and the landmarks prove it.
+    fn show(&mut self, bound: usize) {
+        self.shown = self.shown.max(bound);
+        self.bound = self.bound.max(bound);
+    }
+
+    /// The best set known, by what is needed of another one.
+    fn adopt(&mut self, set: &[Node], pace: &mut Pace<'_>) -> usize {
+        if let Some(order) = incumbent::derivation(&mut self.chain, set, pace)
+            && order.len() < self.best.len()
+        {
+            let order = self.with_forced(order);
+            if order.len() < self.best.len() {
+                self.best = order;
+            }
+        }
+        self.best.len()
     }
 
     fn raise_bound(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
         let forced = self.forced.len();
         let bound = forced + hitting::bound(&self.landmarks, self.best.len() - forced, pace)?;
-        self.bound = self.bound.max(bound);
+        self.show(bound);
         Ok(())
     }
 
     /// A least set that meets all landmarks but those of what is forced; `None` if the best derivation is as small.
-    fn least_hitting_set(&mut self, pace: &mut Pace<'_>) -> Result<Option<Vec<Node>>, Interrupted> {
+    fn least_hitting_set(
+        &mut self,
+        choices: &mut usize,
+        pace: &mut Pace<'_>,
+    ) -> Result<Option<Vec<Node>>, Interrupted> {
         let forced = self.forced.len();
-        let found = hitting::least(&self.landmarks, self.best.len() - forced, pace);
+        let found = hitting::least(&self.landmarks, self.best.len() - forced, choices, pace);
         let reached = match &found {
             Ok(Some(hit)) => forced + hit.len(),
             Ok(None) => self.best.len(),
             Err(reached) => forced + reached,
         };
-        self.bound = self.bound.max(reached);
+        self.show(reached);
         found.map_err(|_| Interrupted)
     }
 
@@ -137,14 +218,7 @@ impl<'p> Search<'p> {
             let allowed = (0..self.problem.target()).filter(|&node| self.chain.is_allowed(node)).collect::<Vec<_>>();
             self.chain.undo(start);
             self.forced[forced..].iter().for_each(|&node| self.chain.allow(node));
-            if let Some(order) = incumbent::derivation(&mut self.chain, &allowed, pace)
-                && order.len() < self.best.len()
-            {
-                let order = self.with_forced(order);
-                if order.len() < self.best.len() {
-                    self.best = order;
-                }
-            }
+            self.adopt(&allowed, pace);
         } else {
             self.chain.undo(start);
         }
@@ -152,7 +226,7 @@ impl<'p> Search<'p> {
     }
 
     fn learn_one(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
-        let landmark = landmark::extract(self.problem, &mut self.chain, pace)?;
+        let landmark = landmark::extract(self.problem, &mut self.chain, self.problem.target(), pace)?;
         landmark.iter().for_each(|&node| self.chain.allow(node));
         if let [node] = landmark[..] {
             self.forced.push(node);
@@ -173,9 +247,14 @@ impl<'p> Search<'p> {
         let objects = |nodes: &[Node]| nodes.iter().map(|&node| self.problem.object(node)).collect::<Vec<_>>();
         let landmarks = self.forced.iter().map(|&node| vec![node]).chain(self.landmarks.iter().cloned()).collect();
         let mut landmarks: Vec<Vec<ObjectIndex>> =
-            proof::concise(landmarks, self.bound, pace).iter().map(|landmark| objects(landmark)).collect();
+            proof::concise(landmarks, self.shown, pace).iter().map(|landmark| objects(landmark)).collect();
         landmarks.iter_mut().for_each(|landmark| landmark.sort_unstable());
         landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
-        LeastSet { derivation: Derivation { order: objects(&self.best) }, bound: self.bound, landmarks }
+        LeastSet {
+            derivation: Derivation { order: objects(&self.best) },
+            bound: self.bound,
+            shown: self.shown,
+            landmarks,
+        }
     }
 }

@@ -16,8 +16,11 @@ pub struct LeastSet {
     pub derivation: Derivation,
     /// No derivation is shorter.
     pub bound: usize,
+    /// As much of the bound as the landmarks prove. On a hard base that may be less: there the search knows more than it
+    /// can show.
+    pub shown: usize,
     /// Sets of which every derivation holds at least one member, sorted each; a least set that meets all of them has
-    /// `bound` members. (Not so for a restricted question: there they hold only under the restriction.)
+    /// at least `shown` members. (Not so for a restricted question: there they hold only under the restriction.)
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 

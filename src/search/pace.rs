@@ -17,6 +17,11 @@ impl<'a> Pace<'a> {
         Self { budget, left: 0 }
     }
 
+    /// Another one on the same budget.
+    pub(super) fn another(&self) -> Self {
+        Self::new(self.budget)
+    }
+
     /// Account for so many steps, of about half a microsecond each.
     ///
     /// # Errors

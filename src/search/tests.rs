@@ -8,13 +8,13 @@ use crate::knowledge::{KnowledgeBase, close};
 use crate::scene::ObjectIndex;
 use proptest::prelude::*;
 
-fn base(options: &[Vec<Vec<usize>>]) -> KnowledgeBase {
+pub(super) fn base(options: &[Vec<Vec<usize>>]) -> KnowledgeBase {
     let set = |members: &Vec<usize>| members.iter().copied().map(ObjectIndex::new).collect();
     options.iter().map(|list| list.iter().map(set).collect()).collect()
 }
 
 /// Does the target follow when only `movable` may be moved? Chains round by round, straight from the definition.
-fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
+pub(super) fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
     let mut moved = 0_u32;
     loop {
         let graspable = |object: usize| options[object].iter().any(|o| o.iter().all(|&m| moved >> m & 1 == 1));
@@ -31,7 +31,7 @@ fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
     }
 }
 
-fn exhaustive(options: &[Vec<Vec<usize>>], target: usize) -> Option<u32> {
+pub(super) fn exhaustive(options: &[Vec<Vec<usize>>], target: usize) -> Option<u32> {
     (0_u32..1 << options.len()).filter(|&set| follows(options, target, set)).map(u32::count_ones).min()
 }
 
@@ -48,7 +48,7 @@ fn check(options: &[Vec<Vec<usize>>], target: usize) -> Option<LeastSet> {
     };
     let order: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
     assert_eq!(Some(u32::try_from(order.len()).unwrap()), expected, "{order:?}");
-    assert_eq!(found.bound, order.len());
+    assert_eq!((found.bound, found.shown), (order.len(), order.len()));
     for (at, &object) in order.iter().enumerate() {
         assert!(options[object].iter().any(|option| option.iter().all(|m| order[..at].contains(m))), "{order:?}");
     }
@@ -127,7 +127,7 @@ fn an_option_that_implies_another_is_left_out() {
     assert_eq!(reduced(&both), (3, vec![3]));
 }
 
-fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {
+pub(super) fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {
     let option = proptest::collection::vec(0..objects, 1..4);
     let list = prop_oneof![
         1 => Just(vec![vec![]]),
@@ -135,6 +135,21 @@ fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {
         6 => proptest::collection::vec(option, 1..5),
     ];
     proptest::collection::vec(list, objects)
+}
+
+/// Cancels after so many looks.
+pub(super) struct After(pub(super) core::cell::Cell<u32>);
+
+impl crate::budget::Clock for After {
+    fn elapsed(&self) -> core::time::Duration {
+        core::time::Duration::ZERO
+    }
+
+    fn cancelled(&self) -> bool {
+        let left = self.0.get();
+        self.0.set(left.saturating_sub(1));
+        left == 0
+    }
 }
 
 proptest! {
@@ -147,15 +162,6 @@ proptest! {
 
     #[test]
     fn an_interrupted_search_claims_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..40) {
-        struct After(core::cell::Cell<u32>);
-        impl crate::budget::Clock for After {
-            fn elapsed(&self) -> core::time::Duration { core::time::Duration::ZERO }
-            fn cancelled(&self) -> bool {
-                let left = self.0.get();
-                self.0.set(left.saturating_sub(1));
-                left == 0
-            }
-        }
         let clock = After(core::cell::Cell::new(looks));
         let budget = Budget::new(&clock, core::time::Duration::MAX);
         let outcome = least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget);

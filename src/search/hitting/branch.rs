@@ -13,17 +13,19 @@ const ROUNDS: usize = 12;
 /// Choices that may be open at once. Each is a frame on the stack; a search so deep would not end in any time.
 const MAX_DEPTH: usize = 1000;
 
-/// A least set that meets every landmark, if it has fewer than `limit` members. Where the budget ends first: `Err` with the
-/// bound reached.
+/// A least set that meets every landmark, if it has fewer than `limit` members. Where the budget ends first, or the
+/// `choices` are spent (they are counted down): `Err` with the bound reached.
 pub(in crate::search) fn least(
     landmarks: &[Vec<Node>],
     limit: usize,
+    choices: &mut usize,
     pace: &mut Pace<'_>,
 ) -> Result<Option<Vec<Node>>, usize> {
     let Ok(root) = Root::new(landmarks, limit, pace) else { return Err(0) };
     let bound = root.bound();
     let Some(rest) = limit.checked_sub(root.decided.count()).filter(|rest| *rest > 0) else { return Ok(None) };
-    let found = Search { pace }.each(root.parts, &root.bounds, rest, MAX_DEPTH).map_err(|Interrupted| bound)?;
+    let found =
+        Search { choices, pace }.each(root.parts, &root.bounds, rest, MAX_DEPTH).map_err(|Interrupted| bound)?;
     Ok(found.map(|rest| {
         let mut found = root.decided.complete(rest);
         found.sort_unstable();
@@ -71,6 +73,7 @@ impl Root {
 }
 
 struct Search<'s, 'b> {
+    choices: &'s mut usize,
     pace: &'s mut Pace<'b>,
 }
 
@@ -116,6 +119,7 @@ impl Search<'_, '_> {
     /// Like [`Self::below`], for one reduced part: some element is taken, or it is not.
     fn choose(&mut self, mut part: Instance, limit: usize, depth: usize) -> Found {
         let depth = depth.checked_sub(1).ok_or(Interrupted)?;
+        *self.choices = self.choices.checked_sub(1).ok_or(Interrupted)?;
         self.pace.step(1)?;
         let worth = raise(&mut part, limit, ROUNDS, self.pace);
         if worth.bound() >= limit {

@@ -21,7 +21,7 @@ fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
     let meets = |members: &[Node]| sets.iter().all(|set| set.iter().any(|node| members.contains(node)));
     let budget = Budget::unlimited();
     for limit in 0..exact + 4 {
-        let found = least(sets, limit, &mut Pace::new(&budget)).unwrap();
+        let found = least(sets, limit, &mut usize::MAX.clone(), &mut Pace::new(&budget)).unwrap();
         prop_assert_eq!(found.as_ref().map(Vec::len), (exact < limit).then_some(exact));
         prop_assert!(found.is_none_or(|found| meets(&found)));
         prop_assert!(bound(sets, limit, &mut Pace::new(&budget)).unwrap() <= exact);

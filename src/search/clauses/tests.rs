@@ -1,0 +1,168 @@
+//! The search by clauses: from its first step against exhaustion, and on a base that needs it.
+
+use core::cell::Cell;
+use core::time::Duration;
+
+use proptest::prelude::*;
+
+use super::{Known, Wishes};
+use crate::budget::Budget;
+use crate::knowledge::close;
+use crate::scene::ObjectIndex;
+use crate::search::chain::Chain;
+use crate::search::pace::Pace;
+use crate::search::problem::Node;
+use crate::search::reduction::reduce;
+use crate::search::tests::After;
+use crate::search::tests::base;
+use crate::search::tests::exhaustive;
+use crate::search::tests::follows;
+use crate::search::tests::options;
+use crate::search::{LeastSet, Outcome, Restriction, least};
+
+/// Bound and best set by clauses alone, so many conflicts a turn, until they meet or the budget ends. `None` if nothing
+/// can be asked.
+fn by_clauses(
+    options: &[Vec<Vec<usize>>],
+    required: &[usize],
+    conflicts: u64,
+    budget: &Budget<'_>,
+) -> Option<(usize, usize)> {
+    let mut pace = Pace::new(budget);
+    let reduced = reduce(&base(options), ObjectIndex::new(0), &Restriction::default(), &mut pace).ok()??;
+    let problem = &reduced.problem;
+    let (mut forced, mut excused) = (reduced.necessary, Vec::new());
+    for &object in required {
+        let node = problem.node(ObjectIndex::new(object))?;
+        if !forced.contains(&node) {
+            forced.push(node);
+            excused.push(node);
+        }
+    }
+    let known = Known { problem, forced: &forced, excused: &excused, landmarks: &[] };
+    let mut wishes = Wishes::new(&known, &mut pace).ok()?;
+    let mut best = problem.movable();
+    while wishes.bound() < best {
+        let (smallest, mut adopted) = (best, best);
+        let mut adopt = |set: &[Node]| {
+            let mut chain = Chain::new(problem);
+            set.iter().for_each(|&node| chain.allow(node));
+            assert!(chain.reaches_target() && forced.iter().all(|node| set.contains(node)), "{set:?}");
+            adopted = adopted.min(set.len());
+            adopted
+        };
+        let raised = wishes.raise(conflicts, smallest, &mut adopt);
+        best = adopted;
+        if raised.is_err() {
+            break;
+        }
+    }
+    Some((wishes.bound(), best))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn clauses_alone_find_what_exhaustion_finds(options in (2_usize..11).prop_flat_map(options), conflicts in 1_u64..30) {
+        if let Some((bound, best)) = by_clauses(&options, &[], conflicts, &Budget::unlimited()) {
+            prop_assert_eq!(Some((bound, best)), exhaustive(&options, 0).map(|least| (least as usize, least as usize)));
+        }
+    }
+
+    #[test]
+    fn what_is_required_need_not_be_graspable(
+        options in (4_usize..11).prop_flat_map(options), one in 1_usize..4, other in 1_usize..4,
+    ) {
+        if let Some(found) = by_clauses(&options, &[one, other], 1000, &Budget::unlimited()) {
+            let holds = |set: &u32| set >> one & 1 == 1 && set >> other & 1 == 1 && follows(&options, 0, *set);
+            let expected = (0_u32..1 << options.len()).filter(holds).map(u32::count_ones).min().unwrap() as usize;
+            prop_assert_eq!(found, (expected, expected));
+        }
+    }
+
+    #[test]
+    fn clauses_cut_off_claim_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..60) {
+        let clock = After(Cell::new(looks));
+        let found = by_clauses(&options, &[], 1000, &Budget::new(&clock, Duration::MAX));
+        if let (Some((bound, best)), Some(expected)) = (found, exhaustive(&options, 0)) {
+            prop_assert!(bound <= expected as usize && expected as usize <= best);
+        }
+    }
+}
+
+#[test]
+fn what_is_required_is_not_made_graspable_at_a_cost() {
+    // t←{a} or {b}, b←{c,d}, a, c and d free; b is required, and a is all that the target needs besides.
+    let options = [vec![vec![1], vec![2]], vec![vec![]], vec![vec![3, 4]], vec![vec![]], vec![vec![]]];
+    assert_eq!(by_clauses(&options, &[2], 1000, &Budget::unlimited()), Some((2, 2)));
+}
+
+/// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up instead.
+/// The lowest layer is free.
+fn stack() -> Vec<Vec<Vec<usize>>> {
+    const LAYERS: usize = 6;
+    const WIDTH: usize = 16;
+    let mut state = 3_u64;
+    let mut below = |count: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from((state >> 33) % count as u64).unwrap()
+    };
+    let mut all = vec![vec![(1..=5).collect()]];
+    for layer in 0..LAYERS {
+        for column in 0..WIDTH {
+            let mut member = || loop {
+                let other = if below(100) < 15 { below(layer + 1) } else { layer + 1 };
+                let member = 1 + other * WIDTH + below(WIDTH);
+                if member != 1 + layer * WIDTH + column {
+                    return member;
+                }
+            };
+            let lowest = layer + 1 == LAYERS;
+            all.push(if lowest { vec![vec![]] } else { (0..3).map(|_| vec![member(), member()]).collect() });
+        }
+    }
+    all
+}
+
+/// What clingo finds.
+const STACK_OPTIMUM: usize = 30;
+
+#[test]
+fn a_stack_is_settled_by_clauses() {
+    let options = stack();
+    let solve = || least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &Budget::unlimited());
+    let Outcome::Least(found) = solve() else { unreachable!("the budget never ends") };
+    assert_eq!((found.bound, found.derivation.order.len()), (STACK_OPTIMUM, STACK_OPTIMUM));
+    assert!(found.shown < found.bound, "its landmarks show as much as the clauses");
+    assert!(is_derived(&options, &found));
+    assert_eq!(solve(), Outcome::Least(found), "a second answer to the same question");
+}
+
+fn is_derived(options: &[Vec<Vec<usize>>], found: &LeastSet) -> bool {
+    let moved = |object: ObjectIndex| found.derivation.order.contains(&object);
+    let closure = close(&base(options), |object| !moved(object), &Budget::unlimited()).unwrap();
+    closure.derives(ObjectIndex::new(0))
+}
+
+#[test]
+fn a_stack_cut_off_anywhere_claims_only_what_holds() {
+    let options = stack();
+    let (mut looks, mut among_clauses) = (0, 0);
+    loop {
+        let clock = After(Cell::new(looks));
+        let budget = Budget::new(&clock, Duration::MAX);
+        match least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget) {
+            Outcome::Interrupted(Some(found)) => {
+                among_clauses += usize::from(found.bound > found.shown);
+                assert!(found.bound <= STACK_OPTIMUM && STACK_OPTIMUM <= found.derivation.order.len());
+                assert!(is_derived(&options, &found));
+            }
+            Outcome::Interrupted(None) => {}
+            Outcome::Least(found) => break assert_eq!(found.bound, STACK_OPTIMUM),
+            Outcome::Underivable => unreachable!("every layer can be moved"),
+        }
+        looks += 1 + looks / 4;
+    }
+    assert!(among_clauses > 1, "clauses were cut off only {among_clauses} times");
+}
