@@ -6,12 +6,14 @@
 mod hints;
 mod job;
 mod settings;
+mod sql;
 mod store;
 mod timestamp;
 
 pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
 pub use settings::JobSettings;
+pub use sql::{OpenError, open};
 pub use store::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_ATTEMPTS, MAX_INCUMBENT_EVENTS, Page, Removal,
     Renewal, Store, StoreError, SubmitError, Swept,

@@ -68,6 +68,9 @@ pub enum ProblemKind {
     /// The answer did not pass its own check and is withheld.
     #[serde(rename = "urn:singulate:problem:check_failed")]
     CheckFailed,
+    /// The job ended three workers.
+    #[serde(rename = "urn:singulate:problem:poison")]
+    Poison,
     /// A defect of the service.
     #[serde(rename = "urn:singulate:problem:internal")]
     Internal,
@@ -90,6 +93,7 @@ impl ProblemKind {
             Self::UriTooLong => (414, "The path is too long"),
             Self::HeadTooLarge => (431, "The head is too large"),
             Self::CheckFailed => (500, "The answer did not pass its check"),
+            Self::Poison => (500, "The job ended three workers"),
             Self::Internal => (500, "Internal error"),
             Self::Overloaded => (503, "Overloaded"),
             Self::NotReady => (503, "Not ready"),

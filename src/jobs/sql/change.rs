@@ -1,0 +1,159 @@
+//! One transaction that writes, and the two things that can happen to a job on the way: it ends, or waits again.
+
+use sqlx::any::AnyRow;
+use sqlx::{Any, AnyConnection, AssertSqlSafe, Error, Row, Transaction};
+
+use super::dialect::Dialect;
+use super::events;
+use super::herald::News;
+use super::row;
+use super::store::SqlStore;
+use crate::budget::Incumbent;
+use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
+
+/// What has to be known of a job before it is changed.
+pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \
+    CASE WHEN callback_url IS NULL THEN 0 ELSE 1 END AS has_callback FROM jobs";
+
+/// How a job stands when it is about to change.
+#[derive(Debug)]
+pub(super) struct Standing {
+    pub(super) id: JobId,
+    pub(super) owner: Owner,
+    pub(super) state: JobState,
+    pub(super) attempts: u32,
+    pub(super) fence: i64,
+    pub(super) cancel_requested: bool,
+    /// The fence of the claim that ended it.
+    pub(super) ended_by: Option<i64>,
+    pub(super) incumbent: Option<Incumbent>,
+    /// Somebody is told of its end.
+    pub(super) has_callback: bool,
+}
+
+impl Standing {
+    pub(super) fn read(row: &AnyRow) -> Result<Self, Error> {
+        Ok(Self {
+            id: row::id(row)?,
+            owner: Owner::named(row.try_get::<String, _>("owner")?),
+            state: row::state(row)?,
+            attempts: row::whole(row, "attempts")?,
+            fence: row.try_get("fence")?,
+            cancel_requested: row.try_get::<i64, _>("cancel_requested")? != 0,
+            ended_by: row.try_get("ended_by")?,
+            incumbent: row::incumbent(row)?,
+            has_callback: row.try_get::<i64, _>("has_callback")? != 0,
+        })
+    }
+
+    /// True if this claim is the one that counts.
+    pub(super) fn held_by(&self, claim: Claim) -> bool {
+        self.state == JobState::Running && self.fence == claim.fence
+    }
+
+    /// The line of what happens to it now.
+    pub(super) fn event(&self, kind: EventKind, attempts: u32, now: Timestamp) -> String {
+        events::line(&Event { kind, at: now, attempts, incumbent: self.incumbent })
+    }
+}
+
+/// How a job ends, and with what.
+#[derive(Debug)]
+pub(super) struct Ending<'a> {
+    pub(super) state: JobState,
+    pub(super) result: Option<&'a str>,
+    pub(super) problem: Option<&'a str>,
+    /// The fence of the claim that ends it.
+    pub(super) by: Option<i64>,
+}
+
+impl Ending<'_> {
+    /// In this state, without an answer and without a problem.
+    pub(super) fn bare(state: JobState) -> Self {
+        Self { state, result: None, problem: None, by: None }
+    }
+}
+
+/// A transaction that writes. Dropped without [`Self::commit`], nothing has happened.
+pub(super) struct Change<'a> {
+    store: &'a SqlStore,
+    transaction: Transaction<'static, Any>,
+    news: Vec<News>,
+}
+
+impl<'a> Change<'a> {
+    pub(super) async fn begin(store: &'a SqlStore) -> Result<Self, Error> {
+        let transaction = store.writers.begin_with(store.dialect.begin()).await?;
+        Ok(Self { store, transaction, news: Vec::new() })
+    }
+
+    /// Everything is on disk, and whoever waits hears of it.
+    pub(super) async fn commit(self) -> Result<(), Error> {
+        self.transaction.commit().await?;
+        self.store.herald.announce(&self.news);
+        Ok(())
+    }
+
+    pub(super) fn connection(&mut self) -> &mut AnyConnection {
+        &mut self.transaction
+    }
+
+    pub(super) fn dialect(&self) -> Dialect {
+        self.store.dialect
+    }
+
+    pub(super) fn settings(&self) -> &'a JobSettings {
+        &self.store.settings
+    }
+
+    /// The job has changed; with `queued` it waits for a worker now.
+    pub(super) fn announce(&mut self, id: JobId, queued: bool) {
+        self.news.push(News { id, queued, callback: false });
+    }
+
+    /// How the job stands. Until the transaction ends, nobody else changes it.
+    pub(super) async fn standing(&mut self, id: JobId) -> Result<Option<Standing>, Error> {
+        let text = format!("{STANDING} WHERE id = $1{}", self.dialect().locked());
+        let query = sqlx::query(AssertSqlSafe(text)).bind(id.to_string());
+        query.fetch_optional(self.connection()).await?.as_ref().map(Standing::read).transpose()
+    }
+
+    /// The job ends. What it was to be planned from is not needed any more.
+    pub(super) async fn end(&mut self, job: &Standing, ending: &Ending<'_>, now: Timestamp) -> Result<(), Error> {
+        let query = sqlx::query(
+            "UPDATE jobs SET state = $2, finished_at = $3, expires_at = $4, result = $5, problem = $6, ended_by = $7, \
+             version = $8, events = events || $9, callback_due = CASE WHEN callback_url IS NULL THEN NULL ELSE $3 END, \
+             lease_ends = NULL, body = NULL WHERE id = $1",
+        );
+        query
+            .bind(job.id.to_string())
+            .bind(ending.state.as_str())
+            .bind(now.as_millis())
+            .bind(now.after(self.settings().ttl).as_millis())
+            .bind(ending.result)
+            .bind(ending.problem)
+            .bind(ending.by)
+            .bind(env!("CARGO_PKG_VERSION"))
+            .bind(job.event(EventKind::Finished, job.attempts, now))
+            .execute(self.connection())
+            .await?;
+        self.news.push(News { id: job.id, queued: false, callback: job.has_callback });
+        Ok(())
+    }
+
+    /// The job waits for a worker again, in the place that it had.
+    pub(super) async fn requeue(&mut self, job: &Standing, attempts: u32, now: Timestamp) -> Result<(), Error> {
+        let query = sqlx::query(
+            "UPDATE jobs SET state = 'queued', attempts = $2, events = events || $3, lease_ends = NULL, \
+             started_at = CASE WHEN $2 = 0 THEN NULL ELSE started_at END WHERE id = $1",
+        );
+        query
+            .bind(job.id.to_string())
+            .bind(i64::from(attempts))
+            .bind(job.event(EventKind::Queued, attempts, now))
+            .execute(self.connection())
+            .await?;
+        self.announce(job.id, true);
+        Ok(())
+    }
+}

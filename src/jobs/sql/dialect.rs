@@ -1,0 +1,60 @@
+//! Where SQLite and PostgreSQL differ.
+
+use std::borrow::Cow;
+
+use sqlx::SqlSafeStr;
+use sqlx::migrate::{Migration, MigrationType, Migrator};
+
+/// Which database.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Dialect {
+    /// One file, or memory.
+    Sqlite,
+    /// A server that many share.
+    Postgres,
+}
+
+impl Dialect {
+    /// Begins a transaction that writes. SQLite has one writer at a time, who says so at once: a reader that turns writer
+    /// could be refused.
+    pub(super) fn begin(self) -> &'static str {
+        match self {
+            Self::Sqlite => "BEGIN IMMEDIATE",
+            Self::Postgres => "BEGIN",
+        }
+    }
+
+    /// At the end of a query: nobody else changes these rows before the transaction ends. SQLite's writer is alone.
+    pub(super) fn locked(self) -> &'static str {
+        match self {
+            Self::Sqlite => "",
+            Self::Postgres => " FOR UPDATE",
+        }
+    }
+
+    /// The same, but rows that somebody else has locked are passed over.
+    pub(super) fn locked_if_free(self) -> &'static str {
+        match self {
+            Self::Sqlite => "",
+            Self::Postgres => " FOR UPDATE SKIP LOCKED",
+        }
+    }
+
+    /// Keeps everybody else from accepting jobs until the transaction ends: the lock's name is the table's number.
+    pub(super) fn lock_submits(self) -> Option<&'static str> {
+        match self {
+            Self::Sqlite => None,
+            Self::Postgres => Some("SELECT pg_advisory_xact_lock('jobs'::regclass::oid::bigint)"),
+        }
+    }
+
+    /// The tables, step by step. A step that has been published never changes.
+    pub(super) fn migrations(self) -> Migrator {
+        let first = match self {
+            Self::Sqlite => include_str!("migrations/sqlite_1_jobs.sql"),
+            Self::Postgres => include_str!("migrations/postgres_1_jobs.sql"),
+        };
+        let first = Migration::new(1, Cow::Borrowed("jobs"), MigrationType::Simple, first.into_sql_str(), false);
+        Migrator::with_migrations(vec![first])
+    }
+}

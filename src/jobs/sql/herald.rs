@@ -1,0 +1,167 @@
+//! Tells whoever waits what has changed: here, and through PostgreSQL on the other servers.
+//!
+//! What is told is a hint. Telling it takes no part in any transaction: PostgreSQL would let only one transaction that
+//! notifies be committed at a time.
+
+use core::time::Duration;
+use std::sync::Arc;
+
+use sqlx::postgres::PgListener;
+use sqlx::{AnyPool, Error};
+use tokio::sync::mpsc::{Receiver, Sender, channel};
+use tokio::task::AbortHandle;
+use uuid::Uuid;
+
+use crate::jobs::{Hints, JobId};
+
+/// Where servers hear each other.
+const CHANNEL: &str = "singulate_jobs";
+/// Changes told at a time: a notification has at most 8,000 bytes, a change takes less than 60.
+const TOLD_AT_A_TIME: usize = 100;
+/// Changes that wait to be told. More are dropped: whoever misses one looks again now and then.
+const MAX_WAITING: usize = 10_000;
+/// Between two tries to reach the database.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// A job has changed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct News {
+    /// Which.
+    pub(super) id: JobId,
+    /// It waits for a worker now.
+    pub(super) queued: bool,
+    /// A callback is due now.
+    pub(super) callback: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct Herald {
+    hints: Arc<Hints>,
+    /// To the task that tells the other servers.
+    others: Option<Sender<News>>,
+    tasks: Vec<AbortHandle>,
+}
+
+impl Herald {
+    /// For a database that can't carry news.
+    pub(super) fn alone() -> Self {
+        Self { hints: Arc::default(), others: None, tasks: Vec::new() }
+    }
+
+    /// Listens and tells, through the database at this address.
+    pub(super) async fn among_others(url: &str, pool: &AnyPool) -> Result<Self, Error> {
+        let hints = Arc::<Hints>::default();
+        // Whoever spoke doesn't listen to the echo.
+        let name = Uuid::now_v7().to_string();
+        let first = listener(url).await?;
+        let hearing = tokio::spawn(hear(url.to_owned(), Arc::clone(&hints), name.clone(), first));
+        let (others, waiting) = channel(MAX_WAITING);
+        let telling = tokio::spawn(tell(pool.clone(), name, waiting));
+        Ok(Self { hints, others: Some(others), tasks: vec![hearing.abort_handle(), telling.abort_handle()] })
+    }
+
+    pub(super) fn hints(&self) -> &Hints {
+        &self.hints
+    }
+
+    pub(super) fn announce(&self, news: &[News]) {
+        for one in news {
+            wake(&self.hints, one);
+            if let Some(others) = &self.others {
+                // Full: see MAX_WAITING.
+                others.try_send(*one).ok();
+            }
+        }
+    }
+}
+
+impl Drop for Herald {
+    fn drop(&mut self) {
+        self.tasks.iter().for_each(AbortHandle::abort);
+    }
+}
+
+fn wake(hints: &Hints, news: &News) {
+    hints.changed(news.id);
+    if news.queued {
+        hints.work.notify_one();
+    }
+    if news.callback {
+        hints.callbacks.notify_one();
+    }
+}
+
+/// One change as a word: the job, then what it is ready for.
+fn word(news: &News) -> String {
+    let (queued, callback) = (if news.queued { "+work" } else { "" }, if news.callback { "+callback" } else { "" });
+    format!(" {}{queued}{callback}", news.id)
+}
+
+fn read(word: &str) -> Option<News> {
+    let mut parts = word.split('+');
+    let id = parts.next()?.parse().ok()?;
+    let ready: Vec<&str> = parts.collect();
+    Some(News { id, queued: ready.contains(&"work"), callback: ready.contains(&"callback") })
+}
+
+async fn tell(pool: AnyPool, name: String, mut waiting: Receiver<News>) {
+    let mut news = Vec::new();
+    while waiting.recv_many(&mut news, TOLD_AT_A_TIME).await > 0 {
+        let mut payload = name.clone();
+        news.drain(..).for_each(|one| payload.push_str(&word(&one)));
+        let told = sqlx::query("SELECT pg_notify($1, $2)").bind(CHANNEL).bind(payload).execute(&pool).await;
+        if let Err(error) = told {
+            tracing::debug!(%error, "other servers were not told of changes");
+        }
+    }
+}
+
+async fn listener(url: &str) -> Result<PgListener, Error> {
+    let mut listener = PgListener::connect(url).await?;
+    listener.listen(CHANNEL).await?;
+    Ok(listener)
+}
+
+async fn hear(url: String, hints: Arc<Hints>, name: String, first: PgListener) {
+    let mut current = Some(first);
+    loop {
+        if let Some(listener) = &mut current {
+            match listener.try_recv().await {
+                Ok(Some(notification)) => {
+                    let mut words = notification.payload().split(' ');
+                    if words.next() != Some(&name) {
+                        words.filter_map(read).for_each(|news| wake(&hints, &news));
+                    }
+                }
+                // It was away and is there again.
+                Ok(None) => hints.all_changed(),
+                Err(error) => {
+                    tracing::debug!(%error, "changes on other servers are not heard");
+                    current = None;
+                }
+            }
+        } else {
+            tokio::time::sleep(PAUSE).await;
+            current = listener(&url).await.ok();
+            if current.is_some() {
+                hints.all_changed();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_told_is_what_is_heard() {
+        for (queued, callback) in [(false, false), (true, false), (false, true), (true, true)] {
+            let told = News { id: JobId::new(), queued, callback };
+            let heard = read(word(&told).trim_start()).unwrap();
+            assert_eq!((heard.id, heard.queued, heard.callback), (told.id, queued, callback));
+            assert!(word(&told).len() < 60, "a hundred of them fit into a notification");
+        }
+        assert!(read("nonsense").is_none());
+    }
+}

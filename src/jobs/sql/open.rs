@@ -1,0 +1,125 @@
+//! From an address to a store: connected, with its tables, listening.
+
+use core::time::Duration;
+use std::sync::{Arc, Once};
+
+use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
+use sqlx::migrate::MigrateError;
+use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection, Error, Row};
+use tokio::time::{Instant, sleep};
+
+use super::dialect::Dialect;
+use super::herald::Herald;
+use super::store::SqlStore;
+use crate::jobs::{JobSettings, Store};
+
+/// Readers of a file. They never wait for its writer; a few keep long lists from holding up short looks.
+const SQLITE_READERS: u32 = 4;
+/// Writers of a file queue here, and for the lock only against other processes. An fsync of a slow disk takes 50 ms, and
+/// a hundred may wait.
+const SQLITE_WAIT: Duration = Duration::from_secs(5);
+/// Enough to keep a database busy whose commits wait for a disk; many servers share its hundred.
+const POSTGRES_CONNECTIONS: u32 = 8;
+/// How long a database may be away before a caller hears of it.
+const POSTGRES_WAIT: Duration = Duration::from_secs(2);
+/// Every question is answered in milliseconds. What takes longer than this, a lock that is not released among them, fails.
+/// A server that vanished within a transaction holds up others no longer either.
+const POSTGRES_LIMITS: &str = "SET statement_timeout = '5s'; SET idle_in_transaction_session_timeout = '5s'";
+/// How long other processes that open the same file at the same time may keep us from it.
+const OPENING: Duration = Duration::from_secs(30);
+
+/// Why there is no store.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("--jobs-url: {0}")]
+pub struct OpenError(String);
+
+/// The store at the settings' address. Its tables are made, or brought up to date, by whoever comes first.
+///
+/// # Errors
+/// [`OpenError`] where the address can't be understood or nothing can be kept there.
+pub async fn open(settings: &JobSettings) -> Result<Arc<dyn Store>, OpenError> {
+    static DRIVERS: Once = Once::new();
+    DRIVERS.call_once(install_default_drivers);
+    let url = settings.url.as_str();
+    let store = if url.starts_with("sqlite:") {
+        sqlite(settings).await.map_err(|error| {
+            OpenError(format!("no jobs can be kept in '{url}': {error}; its folder must be there, and both writable"))
+        })?
+    } else if url.starts_with("postgres://") || url.starts_with("postgresql://") {
+        // The address may hold a password.
+        postgres(settings).await.map_err(|error| OpenError(format!("no jobs can be kept in PostgreSQL: {error}")))?
+    } else {
+        return Err(OpenError(
+            "not an address like sqlite:PATH, sqlite::memory: or postgres://HOST/DATABASE".to_owned(),
+        ));
+    };
+    Ok(Arc::new(store))
+}
+
+async fn sqlite(settings: &JobSettings) -> Result<SqlStore, Error> {
+    let memory = settings.url.starts_with("sqlite::memory:");
+    let created = if settings.url.contains('?') { "&mode=rwc" } else { "?mode=rwc" };
+    let url =
+        if memory || settings.url.contains("mode=") { settings.url.clone() } else { settings.url.clone() + created };
+    let options = url.parse::<AnyConnectOptions>()?.disable_statement_logging();
+    // Nothing closes these connections: memory would go with them.
+    let pool = AnyPoolOptions::new().acquire_timeout(SQLITE_WAIT).idle_timeout(None).max_lifetime(None);
+    let writing = "PRAGMA busy_timeout = 5000; PRAGMA synchronous = FULL";
+    let reading = "PRAGMA busy_timeout = 5000; PRAGMA query_only = ON";
+    let writers = on_connect(pool.clone().max_connections(1), writing).connect_with(options.clone()).await?;
+    use_write_ahead_log(&writers).await?;
+    // In one transaction: of two processes that start at once, one makes the tables and the other finds them.
+    let mut transaction = writers.begin_with(Dialect::Sqlite.begin()).await?;
+    migrate(&mut transaction, Dialect::Sqlite).await?;
+    // SQLite opens what it can't write, and says so only now.
+    sqlx::query("DELETE FROM jobs WHERE id = ''").execute(&mut *transaction).await?;
+    transaction.commit().await?;
+    let readers = match memory {
+        true => writers.clone(),
+        false => on_connect(pool.max_connections(SQLITE_READERS), reading).connect_with(options).await?,
+    };
+    let herald = Herald::alone();
+    Ok(SqlStore { dialect: Dialect::Sqlite, settings: settings.clone(), writers, readers, herald })
+}
+
+async fn postgres(settings: &JobSettings) -> Result<SqlStore, Error> {
+    let options = settings.url.parse::<AnyConnectOptions>()?.disable_statement_logging();
+    let pool = AnyPoolOptions::new().acquire_timeout(POSTGRES_WAIT).max_connections(POSTGRES_CONNECTIONS);
+    // Without limits: the tables may take their time, and so may another server that is making them.
+    let mut connection = options.connect().await?;
+    migrate(&mut connection, Dialect::Postgres).await?;
+    connection.close().await?;
+    let pool = on_connect(pool, POSTGRES_LIMITS).connect_with(options).await?;
+    let herald = Herald::among_others(&settings.url, &pool).await?;
+    let (settings, readers) = (settings.clone(), pool.clone());
+    Ok(SqlStore { dialect: Dialect::Postgres, settings, writers: pool, readers, herald })
+}
+
+/// Each new connection begins with these statements.
+fn on_connect(pool: AnyPoolOptions, statements: &'static str) -> AnyPoolOptions {
+    pool.after_connect(move |connection, _| {
+        Box::pin(async move { sqlx::raw_sql(statements).execute(connection).await.map(drop) })
+    })
+}
+
+/// The file remembers it, so it happens once. Whoever is refused because another process is at it tries again: SQLite
+/// does not wait for this lock by itself.
+async fn use_write_ahead_log(writers: &AnyPool) -> Result<(), Error> {
+    let begin = Instant::now();
+    loop {
+        match sqlx::query("PRAGMA journal_mode = WAL").fetch_one(writers).await {
+            Err(Error::Database(error)) if error.message().contains("locked") && begin.elapsed() < OPENING => {
+                sleep(Duration::from_millis(20)).await;
+            }
+            answer => return answer.and_then(|row| row.try_get::<String, _>(0)).map(drop),
+        }
+    }
+}
+
+/// Takes PostgreSQL's lock for migrations meanwhile; SQLite has none.
+async fn migrate(connection: &mut AnyConnection, dialect: Dialect) -> Result<(), Error> {
+    dialect.migrations().run_direct(None, connection, false).await.map_err(|error| match error {
+        MigrateError::Execute(error) => error,
+        other => Error::Configuration(other.into()),
+    })
+}

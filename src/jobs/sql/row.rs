@@ -1,0 +1,125 @@
+//! Rows as jobs.
+
+use sqlx::any::AnyRow;
+use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
+
+use super::events;
+use crate::budget::Incumbent;
+use crate::jobs::{Job, JobId, JobState, Owner, Page, Timestamp};
+
+/// What a job is read from, but its result and its place in the queue.
+const COLUMNS: &str = "jobs.id, jobs.state, jobs.scene_id, jobs.scene_sha256, jobs.created_at, jobs.started_at, \
+    jobs.finished_at, jobs.expires_at, jobs.attempts, jobs.cost, jobs.lower_bound, jobs.problem, jobs.version, jobs.events";
+/// The place of one job: everything up to it is counted.
+const PLACE_OF_ONE: &str = "CASE WHEN jobs.state = 'queued' THEN (SELECT COUNT(*) FROM jobs AS other \
+    WHERE other.state = 'queued' AND (other.priority > jobs.priority OR (other.priority = jobs.priority \
+    AND (other.turn < jobs.turn OR (other.turn = jobs.turn AND other.id <= jobs.id))))) END AS queue_position";
+/// The places of all jobs: the whole queue is counted once.
+const PLACES: &str = "LEFT JOIN (SELECT id AS queued_id, ROW_NUMBER() OVER (ORDER BY priority DESC, turn, id) \
+    AS queue_position FROM jobs WHERE state = 'queued') AS places ON places.queued_id = jobs.id";
+
+/// A job by its name, of this owner or of anybody.
+pub(super) async fn find(
+    connection: &mut AnyConnection,
+    owner: Option<&Owner>,
+    id: JobId,
+) -> Result<Option<Job>, Error> {
+    let owned = if owner.is_some() { " AND owner = $2" } else { "" };
+    let text = format!("SELECT {COLUMNS}, jobs.result, {PLACE_OF_ONE} FROM jobs WHERE id = $1{owned}");
+    let mut query = sqlx::query(AssertSqlSafe(text)).bind(id.to_string());
+    if let Some(owner) = owner {
+        query = query.bind(owner.as_str());
+    }
+    query.fetch_optional(connection).await?.as_ref().map(job).transpose()
+}
+
+/// These jobs in this order; those that are gone are left out.
+pub(super) async fn find_all(connection: &mut AnyConnection, ids: &[JobId]) -> Result<Vec<Job>, Error> {
+    let (first, last) = match (ids.iter().min(), ids.iter().max()) {
+        (Some(first), Some(last)) if first != last => (first, last),
+        (Some(only), _) => return Ok(find(connection, None, *only).await?.into_iter().collect()),
+        _ => return Ok(Vec::new()),
+    };
+    // Jobs of one request have names close together, so hardly any others are read.
+    let text = format!("SELECT {COLUMNS}, jobs.result, queue_position FROM jobs {PLACES} WHERE id BETWEEN $1 AND $2");
+    let query = sqlx::query(AssertSqlSafe(text)).bind(first.to_string()).bind(last.to_string());
+    let mut found = query.fetch_all(connection).await?.iter().map(job).collect::<Result<Vec<Job>, Error>>()?;
+    let mut jobs = Vec::with_capacity(ids.len());
+    for id in ids {
+        if let Some(at) = found.iter().position(|job| job.id == *id) {
+            jobs.push(found.swap_remove(at));
+        }
+    }
+    Ok(jobs)
+}
+
+/// The owner's jobs, the latest first, without their results.
+pub(super) async fn list(connection: &mut AnyConnection, owner: &Owner, page: Page) -> Result<Vec<Job>, Error> {
+    let mut text = format!("SELECT {COLUMNS}, NULL AS result, queue_position FROM jobs {PLACES} WHERE owner = $1");
+    let mut values = vec![owner.as_str().to_owned()];
+    if let Some(state) = page.state {
+        values.push(state.as_str().to_owned());
+        text.push_str(&format!(" AND state = ${}", values.len()));
+    }
+    if let Some(before) = page.before {
+        values.push(before.to_string());
+        text.push_str(&format!(" AND id < ${}", values.len()));
+    }
+    text.push_str(&format!(" ORDER BY id DESC LIMIT ${}", values.len() + 1));
+    let query = values.into_iter().fold(sqlx::query(AssertSqlSafe(text)), |query, value| query.bind(value));
+    let query = query.bind(i64::try_from(page.limit).unwrap_or(i64::MAX));
+    query.fetch_all(connection).await?.iter().map(job).collect()
+}
+
+fn job(row: &AnyRow) -> Result<Job, Error> {
+    let scene_id: Option<Vec<u8>> = row.try_get("scene_id")?;
+    let lines: String = row.try_get("events")?;
+    Ok(Job {
+        id: id(row)?,
+        state: state(row)?,
+        scene_id: scene_id.map(String::from_utf8).transpose().map_err(|error| Error::Decode(error.into()))?,
+        scene_sha256: row.try_get("scene_sha256")?,
+        created_at: time(row, "created_at")?,
+        started_at: optional_time(row, "started_at")?,
+        finished_at: optional_time(row, "finished_at")?,
+        expires_at: time(row, "expires_at")?,
+        attempts: whole(row, "attempts")?,
+        queue_position: row.try_get::<Option<i64>, _>("queue_position")?.map(narrow).transpose()?,
+        incumbent: incumbent(row)?,
+        result: row.try_get("result")?,
+        problem: row.try_get("problem")?,
+        version: row.try_get("version")?,
+        events: events::read(&lines).ok_or_else(|| Error::Decode(format!("no events: {lines:?}").into()))?,
+    })
+}
+
+pub(super) fn id(row: &AnyRow) -> Result<JobId, Error> {
+    row.try_get::<&str, _>("id")?.parse().map_err(|error| Error::Decode(Box::new(error)))
+}
+
+pub(super) fn state(row: &AnyRow) -> Result<JobState, Error> {
+    let word: &str = row.try_get("state")?;
+    word.parse().map_err(|()| Error::Decode(format!("no state: {word:?}").into()))
+}
+
+pub(super) fn incumbent(row: &AnyRow) -> Result<Option<Incumbent>, Error> {
+    let cost: Option<i64> = row.try_get("cost")?;
+    cost.map(|cost| Ok(Incumbent { cost: narrow(cost)?, lower_bound: whole(row, "lower_bound")? })).transpose()
+}
+
+pub(super) fn time(row: &AnyRow, column: &str) -> Result<Timestamp, Error> {
+    row.try_get(column).map(Timestamp::from_millis)
+}
+
+fn optional_time(row: &AnyRow, column: &str) -> Result<Option<Timestamp>, Error> {
+    Ok(row.try_get::<Option<i64>, _>(column)?.map(Timestamp::from_millis))
+}
+
+/// A number that is never negative.
+pub(super) fn whole<T: TryFrom<i64>>(row: &AnyRow, column: &str) -> Result<T, Error> {
+    narrow(row.try_get(column)?)
+}
+
+fn narrow<T: TryFrom<i64>>(number: i64) -> Result<T, Error> {
+    T::try_from(number).map_err(|_| Error::Decode(format!("{number} can't be").into()))
+}

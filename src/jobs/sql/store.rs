@@ -1,0 +1,138 @@
+//! Every question's way in.
+
+use core::time::Duration;
+
+use async_trait::async_trait;
+use sqlx::{AnyPool, Error};
+use tokio::time::timeout;
+
+use super::change::Change;
+use super::dialect::Dialect;
+use super::herald::Herald;
+use super::submit::{Submitted, submit};
+use super::{callbacks, owner, row, sweep, worker};
+use crate::budget::Incumbent;
+use crate::jobs::{
+    Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobSettings, NewJob, Owner, Page,
+    Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp,
+};
+
+/// How long the database may take. It is less than a lease: a worker must hear in time that its store is away.
+const PATIENCE: Duration = Duration::from_secs(8);
+
+/// Jobs in a database.
+pub(super) struct SqlStore {
+    pub(super) dialect: Dialect,
+    pub(super) settings: JobSettings,
+    /// For what changes something.
+    pub(super) writers: AnyPool,
+    /// For what only looks.
+    pub(super) readers: AnyPool,
+    pub(super) herald: Herald,
+}
+
+/// One write: all that is asked of `$change` happens, or nothing does.
+macro_rules! change {
+    ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
+        $store.ask($operation, async {
+            let mut change = Change::begin($store).await?;
+            let $change = &mut change;
+            let answer = $work.await?;
+            change.commit().await?;
+            Ok(answer)
+        })
+    };
+}
+
+impl SqlStore {
+    /// Every question passes here, under its name.
+    async fn ask<T>(
+        &self,
+        operation: &'static str,
+        work: impl Future<Output = Result<T, Error>>,
+    ) -> Result<T, StoreError> {
+        match timeout(PATIENCE, work).await {
+            Ok(answer) => answer.map_err(|error| StoreError(format!("{operation}: {error}"))),
+            Err(_) => Err(StoreError(format!("{operation}: no answer within {} s", PATIENCE.as_secs()))),
+        }
+    }
+}
+
+#[async_trait]
+impl Store for SqlStore {
+    async fn submit(&self, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, SubmitError> {
+        match change!(self, "submit", |change| submit(change, jobs, now)).await? {
+            Submitted::Accepted(jobs) => Ok(jobs),
+            Submitted::Full => Err(SubmitError::Full),
+            Submitted::KeyReused => Err(SubmitError::KeyReused),
+        }
+    }
+
+    async fn get(&self, owner: &Owner, id: JobId) -> Result<Option<Job>, StoreError> {
+        self.ask("get", async { row::find(&mut *self.readers.acquire().await?, Some(owner), id).await }).await
+    }
+
+    async fn list(&self, owner: &Owner, page: Page) -> Result<Vec<Job>, StoreError> {
+        self.ask("list", async { row::list(&mut *self.readers.acquire().await?, owner, page).await }).await
+    }
+
+    async fn cancel(&self, owner: &Owner, id: JobId, now: Timestamp) -> Result<Cancellation, StoreError> {
+        change!(self, "cancel", |change| owner::cancel(change, owner, id, now)).await
+    }
+
+    async fn forget(&self, owner: &Owner, id: JobId) -> Result<Removal, StoreError> {
+        change!(self, "forget", |change| owner::forget(change, owner, id)).await
+    }
+
+    async fn claim(&self, now: Timestamp) -> Result<Option<Claimed>, StoreError> {
+        change!(self, "claim", |change| worker::claim(change, now)).await
+    }
+
+    async fn renew(&self, claim: Claim, now: Timestamp) -> Result<Renewal, StoreError> {
+        change!(self, "renew", |change| worker::renew(change, claim, now)).await
+    }
+
+    async fn note(&self, claim: Claim, incumbent: Incumbent, now: Timestamp) -> Result<bool, StoreError> {
+        change!(self, "note", |change| worker::note(change, claim, incumbent, now)).await
+    }
+
+    async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError> {
+        change!(self, "finish", |change| worker::finish(change, claim, end, now)).await
+    }
+
+    async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError> {
+        change!(self, "hand_back", |change| worker::hand_back(change, claim, now)).await
+    }
+
+    async fn sweep(&self, now: Timestamp) -> Result<Swept, StoreError> {
+        let mut all = Swept::default();
+        // A batch at a time, so that nobody waits long for the one who sweeps.
+        loop {
+            let (swept, more) = change!(self, "sweep", |change| sweep::batch(change, now)).await?;
+            sweep::add(&mut all, swept);
+            if !more {
+                return Ok(all);
+            }
+        }
+    }
+
+    async fn take_callback(&self, lease: Duration, now: Timestamp) -> Result<Option<Callback>, StoreError> {
+        change!(self, "take_callback", |change| callbacks::take(change, lease, now)).await
+    }
+
+    async fn settle_callback(&self, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), StoreError> {
+        change!(self, "settle_callback", |change| callbacks::settle(change, id, attempt, delivery)).await
+    }
+
+    async fn counts(&self) -> Result<Counts, StoreError> {
+        self.ask("counts", async { sweep::counts(&mut *self.readers.acquire().await?).await }).await
+    }
+
+    async fn ping(&self) -> Result<(), StoreError> {
+        self.ask("ping", async { sqlx::query("SELECT 1").execute(&self.readers).await.map(drop) }).await
+    }
+
+    fn hints(&self) -> &Hints {
+        self.herald.hints()
+    }
+}

@@ -1,0 +1,87 @@
+//! What time brings: leases that end, jobs that waited too long, jobs to forget. And how many there are.
+
+use sqlx::{AnyConnection, AssertSqlSafe, Error};
+
+use super::change::{Change, Ending, STANDING, Standing};
+use super::row;
+use crate::jobs::{Counts, JobState, MAX_ATTEMPTS, Swept, Timestamp};
+use crate::wire::Problem;
+use crate::wire::ProblemKind;
+
+/// Jobs of each kind in one transaction: some milliseconds of work.
+const BATCH: usize = 200;
+
+/// One batch, and whether there is more to do. A job that goes back to the queue after its time may expire at once.
+pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Swept, bool), Error> {
+    let mut swept = Swept::default();
+    let lost = overdue(change, "state = 'running' AND lease_ends <= $1 ORDER BY lease_ends", now).await?;
+    for job in &lost {
+        lose(change, job, &mut swept, now).await?;
+    }
+    let late = overdue(change, "state = 'queued' AND expires_at <= $1 ORDER BY expires_at", now).await?;
+    for job in &late {
+        change.end(job, &Ending::bare(JobState::Expired), now).await?;
+    }
+    swept.expired = count(late.len());
+    let old = "state <> 'queued' AND state <> 'running' AND expires_at <= $1 ORDER BY expires_at";
+    let old = overdue(change, old, now).await?;
+    for job in &old {
+        let query = sqlx::query("DELETE FROM jobs WHERE id = $1").bind(job.id.to_string());
+        query.execute(change.connection()).await?;
+        change.announce(job.id, false);
+    }
+    swept.forgotten = count(old.len());
+    Ok((swept, [lost, late, old].iter().any(|jobs| jobs.len() == BATCH)))
+}
+
+/// The jobs that meet the condition; those that somebody is just changing are left for next time.
+async fn overdue(change: &mut Change<'_>, condition: &str, now: Timestamp) -> Result<Vec<Standing>, Error> {
+    let text = format!("{STANDING} WHERE {condition} LIMIT {BATCH}{}", change.dialect().locked_if_free());
+    let query = sqlx::query(AssertSqlSafe(text)).bind(now.as_millis());
+    query.fetch_all(change.connection()).await?.iter().map(Standing::read).collect()
+}
+
+/// A worker said nothing for a whole lease.
+async fn lose(change: &mut Change<'_>, job: &Standing, swept: &mut Swept, now: Timestamp) -> Result<(), Error> {
+    if job.cancel_requested {
+        swept.cancelled += 1;
+        change.end(job, &Ending::bare(JobState::Cancelled), now).await
+    } else if job.attempts < MAX_ATTEMPTS {
+        swept.requeued += 1;
+        change.requeue(job, job.attempts, now).await
+    } else {
+        swept.poisoned.push(job.id);
+        let problem = poison();
+        let ending = Ending { problem: Some(&problem), ..Ending::bare(JobState::Failed) };
+        change.end(job, &ending, now).await
+    }
+}
+
+fn poison() -> String {
+    let detail =
+        format!("{MAX_ATTEMPTS} workers began this job and were not heard of again; it is not begun once more");
+    let problem = Problem::new(ProblemKind::Poison, detail);
+    serde_json::to_string(&problem).expect("a problem document is JSON")
+}
+
+fn count(length: usize) -> u64 {
+    u64::try_from(length).unwrap_or(u64::MAX)
+}
+
+pub(super) fn add(all: &mut Swept, batch: Swept) {
+    let Swept { requeued, poisoned, cancelled, expired, forgotten } = batch;
+    all.requeued += requeued;
+    all.poisoned.extend(poisoned);
+    all.cancelled += cancelled;
+    all.expired += expired;
+    all.forgotten += forgotten;
+}
+
+pub(super) async fn counts(connection: &mut AnyConnection) -> Result<Counts, Error> {
+    let query = sqlx::query(
+        "SELECT (SELECT COUNT(*) FROM jobs WHERE state = 'queued') AS queued, \
+         (SELECT COUNT(*) FROM jobs WHERE state = 'running') AS running",
+    );
+    let row = query.fetch_one(connection).await?;
+    Ok(Counts { queued: row::whole(&row, "queued")?, running: row::whole(&row, "running")? })
+}

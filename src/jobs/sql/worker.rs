@@ -1,0 +1,112 @@
+//! What workers ask: a job, more time, and to be done with it.
+
+use sqlx::{AssertSqlSafe, Error, Row};
+
+use super::change::{Change, Ending, STANDING, Standing};
+use super::events;
+use super::row;
+use crate::budget::Incumbent;
+use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp};
+
+pub(super) async fn claim(change: &mut Change<'_>, now: Timestamp) -> Result<Option<Claimed>, Error> {
+    let text = format!(
+        "{STANDING} WHERE state = 'queued' AND expires_at > $1 ORDER BY priority DESC, turn, id LIMIT 1{}",
+        change.dialect().locked_if_free()
+    );
+    let query = sqlx::query(AssertSqlSafe(text)).bind(now.as_millis());
+    let Some(next) = query.fetch_optional(change.connection()).await? else { return Ok(None) };
+    let job = Standing::read(&next)?;
+    let attempt = job.attempts + 1;
+    let query = sqlx::query(
+        "UPDATE jobs SET state = 'running', attempts = $2, fence = $3, started_at = $4, lease_ends = $5, \
+         events = events || $6 WHERE id = $1 RETURNING body, created_at",
+    );
+    let row = query
+        .bind(job.id.to_string())
+        .bind(i64::from(attempt))
+        .bind(job.fence + 1)
+        .bind(now.as_millis())
+        .bind(now.after(change.settings().lease).as_millis())
+        .bind(job.event(EventKind::Running, attempt, now))
+        .fetch_one(change.connection())
+        .await?;
+    change.announce(job.id, false);
+    Ok(Some(Claimed {
+        claim: Claim { id: job.id, fence: job.fence + 1 },
+        body: row.try_get("body")?,
+        attempt,
+        created_at: row::time(&row, "created_at")?,
+    }))
+}
+
+pub(super) async fn renew(change: &mut Change<'_>, claim: Claim, now: Timestamp) -> Result<Renewal, Error> {
+    let query = sqlx::query(
+        "UPDATE jobs SET lease_ends = $3 WHERE id = $1 AND fence = $2 AND state = 'running' RETURNING cancel_requested",
+    );
+    let query = query.bind(claim.id.to_string()).bind(claim.fence);
+    let query = query.bind(now.after(change.settings().lease).as_millis());
+    Ok(match query.fetch_optional(change.connection()).await? {
+        Some(row) if row.try_get::<i64, _>("cancel_requested")? != 0 => Renewal::Cancelled,
+        Some(_) => Renewal::Held,
+        None => Renewal::Lost,
+    })
+}
+
+/// A second attempt begins its search anew, so what it says may be behind what is known.
+pub(super) async fn note(
+    change: &mut Change<'_>,
+    claim: Claim,
+    incumbent: Incumbent,
+    now: Timestamp,
+) -> Result<bool, Error> {
+    let Some(job) = change.standing(claim.id).await?.filter(|job| job.held_by(claim)) else { return Ok(false) };
+    let best = job.incumbent.map_or(incumbent, |known| Incumbent {
+        cost: known.cost.min(incumbent.cost),
+        lower_bound: known.lower_bound.max(incumbent.lower_bound),
+    });
+    if job.incumbent == Some(best) {
+        return Ok(true);
+    }
+    let id = claim.id.to_string();
+    let query = sqlx::query("SELECT events FROM jobs WHERE id = $1").bind(id.as_str());
+    let lines: String = query.fetch_one(change.connection()).await?.try_get("events")?;
+    let told = events::read(&lines).unwrap_or_default();
+    let room = told.iter().filter(|event| event.kind == EventKind::Incumbent).count() < MAX_INCUMBENT_EVENTS;
+    let job = Standing { incumbent: Some(best), ..job };
+    let line = if room { job.event(EventKind::Incumbent, job.attempts, now) } else { String::new() };
+    let query = sqlx::query("UPDATE jobs SET cost = $2, lower_bound = $3, events = events || $4 WHERE id = $1");
+    let number = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
+    let query = query.bind(id).bind(number(best.cost)).bind(number(best.lower_bound)).bind(line);
+    query.execute(change.connection()).await?;
+    change.announce(job.id, false);
+    Ok(true)
+}
+
+pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now: Timestamp) -> Result<bool, Error> {
+    let Some(job) = change.standing(claim.id).await? else { return Ok(false) };
+    if !job.held_by(claim) {
+        return Ok(job.ended_by == Some(claim.fence));
+    }
+    let by = Some(claim.fence);
+    let ending = match end {
+        End::Succeeded(result) if job.cancel_requested => {
+            Ending { state: JobState::Cancelled, result: Some(result), problem: None, by }
+        }
+        End::Failed(_) if job.cancel_requested => Ending { by, ..Ending::bare(JobState::Cancelled) },
+        End::Succeeded(result) => Ending { state: JobState::Succeeded, result: Some(result), problem: None, by },
+        End::Failed(problem) => Ending { state: JobState::Failed, result: None, problem: Some(problem), by },
+    };
+    change.end(&job, &ending, now).await?;
+    Ok(true)
+}
+
+/// A job whose caller wanted no more of it does not wait again only to be ended.
+pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timestamp) -> Result<bool, Error> {
+    let Some(job) = change.standing(claim.id).await?.filter(|job| job.held_by(claim)) else { return Ok(false) };
+    if job.cancel_requested {
+        change.end(&job, &Ending::bare(JobState::Cancelled), now).await?;
+    } else {
+        change.requeue(&job, job.attempts.saturating_sub(1), now).await?;
+    }
+    Ok(true)
+}
