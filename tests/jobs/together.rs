@@ -1,10 +1,12 @@
 //! Several at once, through two ways into the same database.
 
+use core::time::Duration;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use singulate::jobs::{End, JobId, JobState, NewJob, Store, SubmitError};
+use singulate::jobs::{End, Job, JobId, JobState, NewJob, Store, SubmitError};
 use tokio::task::JoinSet;
+use tokio::time::sleep;
 
 use crate::home::{Home, ann, at, claimed, job, jobs, keyed, seen, submitted};
 
@@ -12,12 +14,22 @@ async fn two(home: &Home) -> [Arc<dyn Store>; 2] {
     [home.store().await, home.store().await]
 }
 
+/// A busy machine may keep a store waiting for longer than it waits. It says so, and is asked again.
+async fn submit(store: &Arc<dyn Store>, jobs: &[NewJob]) -> Result<Vec<Job>, SubmitError> {
+    loop {
+        match store.submit(jobs, at(0)).await {
+            Err(SubmitError::Store(_)) => sleep(Duration::from_millis(50)).await,
+            answer => return answer,
+        }
+    }
+}
+
 pub(crate) async fn one_key_at_once_gives_one_job(home: &Home) {
     let stores = two(home).await;
     let mut calls = JoinSet::new();
     for turn in 0..32 {
         let store = Arc::clone(&stores[turn % 2]);
-        calls.spawn(async move { store.submit(&[keyed("k", 0), keyed("k", 1)], at(0)).await.unwrap() });
+        calls.spawn(async move { submit(&store, &[keyed("k", 0), keyed("k", 1)]).await.unwrap() });
     }
     let answers = calls.join_all().await;
     let ids: HashSet<Vec<JobId>> = answers.iter().map(|jobs| jobs.iter().map(|job| job.id).collect()).collect();
@@ -34,8 +46,8 @@ pub(crate) async fn claims_at_once_get_each_job_once(home: &Home) {
         calls.spawn(async move {
             let mut mine = Vec::new();
             // Nothing to claim may also mean that others are just claiming the last.
-            while store.counts().await.unwrap().queued > 0 {
-                mine.extend(store.claim(at(1)).await.unwrap().map(|work| work.claim.id));
+            while !matches!(store.counts().await, Ok(counts) if counts.queued == 0) {
+                mine.extend(store.claim(at(1)).await.ok().flatten().map(|work| work.claim.id));
             }
             mine
         });
@@ -51,7 +63,7 @@ pub(crate) async fn the_queue_is_never_overfilled(home: &Home) {
     let mut calls = JoinSet::new();
     for turn in 0..16 {
         let store = Arc::clone(&stores[turn % 2]);
-        calls.spawn(async move { store.submit(&jobs::<2>(), at(0)).await });
+        calls.spawn(async move { submit(&store, &jobs::<2>()).await });
     }
     let answers = calls.join_all().await;
     assert_eq!(answers.iter().filter(|answer| answer.is_ok()).count(), 5);
