@@ -1,7 +1,7 @@
 //! Jobs that are never lost: what was accepted is on disk, runs on whatever server has room, and ends once.
 //!
-//! A [`Store`] keeps them; a runner claims them, one lease at a time, and plans; whoever watches a job is woken by
-//! [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
+//! A [`Store`], which [`open`] gives, keeps them; a runner claims them, one lease at a time, and plans; whoever watches a
+//! job is woken by [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
 
 mod body;
 mod callback;

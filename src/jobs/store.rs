@@ -10,6 +10,7 @@
 //! | queued | expired | `sweep`, once `expires_at` has passed |
 //! | running | succeeded, failed, cancelled | `finish` with the fence; cancelled where `cancel` came before |
 //! | running | queued | `hand_back` with the fence, which takes the attempt back; `sweep`, once the lease has passed |
+//! | running | cancelled | `hand_back` of one that `cancel` came before: it would wait again only to be ended |
 //! | running | failed, cancelled | `sweep`, once the lease of the third attempt has passed; of one that `cancel` came before |
 //! | finished | - | `forget`; `sweep`, once `expires_at` has passed |
 //!
@@ -159,7 +160,7 @@ pub struct Counts {
     pub running: u64,
 }
 
-/// Keeps jobs. Every call is one transaction; `now` is the caller's time.
+/// Keeps jobs. Every call is one transaction, but for `sweep`, which is one a batch; `now` is the caller's time.
 #[async_trait]
 pub trait Store: Send + Sync + 'static {
     /// Accept all jobs of one request, or none. Where the first one's key is known with the same digest, they are the jobs
@@ -205,7 +206,7 @@ pub trait Store: Send + Sync + 'static {
     /// [`StoreError`].
     async fn renew(&self, claim: Claim, now: Timestamp) -> Result<Renewal, StoreError>;
 
-    /// Keep the best so far. False if the claim is lost.
+    /// Keep the best so far: the least cost and the greatest bound of all that was noted. False if the claim is lost.
     ///
     /// # Errors
     /// [`StoreError`].
@@ -218,7 +219,7 @@ pub trait Store: Send + Sync + 'static {
     /// [`StoreError`].
     async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError>;
 
-    /// Queue the job again, as if it had not been claimed. False if the claim is lost.
+    /// Queue the job again, as if it had not been claimed, in the place that it had. False if the claim is lost.
     ///
     /// # Errors
     /// [`StoreError`].

@@ -9,16 +9,17 @@ use super::herald::News;
 use super::row;
 use super::store::SqlStore;
 use crate::budget::Incumbent;
-use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Timestamp};
+use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
 
 /// What has to be known of a job before it is changed.
-pub(super) const STANDING: &str = "SELECT id, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \
+pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \
     CASE WHEN callback_url IS NULL THEN 0 ELSE 1 END AS has_callback FROM jobs";
 
 /// How a job stands when it is about to change.
 #[derive(Debug)]
 pub(super) struct Standing {
     pub(super) id: JobId,
+    pub(super) owner: Owner,
     pub(super) state: JobState,
     pub(super) attempts: u32,
     pub(super) fence: i64,
@@ -26,6 +27,7 @@ pub(super) struct Standing {
     /// The fence of the claim that ended it.
     pub(super) ended_by: Option<i64>,
     pub(super) incumbent: Option<Incumbent>,
+    /// Somebody is told of its end.
     pub(super) has_callback: bool,
 }
 
@@ -33,6 +35,7 @@ impl Standing {
     pub(super) fn read(row: &AnyRow) -> Result<Self, Error> {
         Ok(Self {
             id: row::id(row)?,
+            owner: Owner::named(row.try_get::<String, _>("owner")?),
             state: row::state(row)?,
             attempts: row::whole(row, "attempts")?,
             fence: row.try_get("fence")?,

@@ -71,6 +71,8 @@ async fn sqlite(settings: &JobSettings) -> Result<SqlStore, Error> {
     // In one transaction: of two processes that start at once, one makes the tables and the other finds them.
     let mut transaction = writers.begin_with(Dialect::Sqlite.begin()).await?;
     migrate(&mut transaction, Dialect::Sqlite).await?;
+    // SQLite opens what it can't write, and says so only now.
+    sqlx::query("DELETE FROM jobs WHERE id = ''").execute(&mut *transaction).await?;
     transaction.commit().await?;
     let readers = match memory {
         true => writers.clone(),

@@ -1,16 +1,14 @@
 //! What owners ask of their jobs, apart from looking at them.
 
-use sqlx::{AssertSqlSafe, Error};
+use sqlx::Error;
 
-use super::change::{Change, Ending, STANDING, Standing};
+use super::change::{Change, Ending, Standing};
 use super::row;
 use crate::jobs::{Cancellation, JobId, JobState, Owner, Removal, Timestamp};
 
-/// How the owner's job stands. Until the transaction ends, nobody else changes it.
+/// How the owner's job stands; another's is none.
 async fn own(change: &mut Change<'_>, owner: &Owner, id: JobId) -> Result<Option<Standing>, Error> {
-    let text = format!("{STANDING} WHERE id = $1 AND owner = $2{}", change.dialect().locked());
-    let query = sqlx::query(AssertSqlSafe(text)).bind(id.to_string()).bind(owner.as_str());
-    query.fetch_optional(change.connection()).await?.as_ref().map(Standing::read).transpose()
+    Ok(change.standing(id).await?.filter(|job| job.owner == *owner))
 }
 
 pub(super) async fn cancel(

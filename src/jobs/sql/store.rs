@@ -21,7 +21,6 @@ use crate::jobs::{
 const PATIENCE: Duration = Duration::from_secs(8);
 
 /// Jobs in a database.
-#[derive(Debug)]
 pub(super) struct SqlStore {
     pub(super) dialect: Dialect,
     pub(super) settings: JobSettings,
@@ -33,7 +32,7 @@ pub(super) struct SqlStore {
 }
 
 /// One write: all that is asked of `$change` happens, or nothing does.
-macro_rules! write {
+macro_rules! change {
     ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
         $store.ask($operation, async {
             let mut change = Change::begin($store).await?;
@@ -62,7 +61,7 @@ impl SqlStore {
 #[async_trait]
 impl Store for SqlStore {
     async fn submit(&self, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, SubmitError> {
-        match write!(self, "submit", |change| submit(change, jobs, now)).await? {
+        match change!(self, "submit", |change| submit(change, jobs, now)).await? {
             Submitted::Accepted(jobs) => Ok(jobs),
             Submitted::Full => Err(SubmitError::Full),
             Submitted::KeyReused => Err(SubmitError::KeyReused),
@@ -78,38 +77,38 @@ impl Store for SqlStore {
     }
 
     async fn cancel(&self, owner: &Owner, id: JobId, now: Timestamp) -> Result<Cancellation, StoreError> {
-        write!(self, "cancel", |change| owner::cancel(change, owner, id, now)).await
+        change!(self, "cancel", |change| owner::cancel(change, owner, id, now)).await
     }
 
     async fn forget(&self, owner: &Owner, id: JobId) -> Result<Removal, StoreError> {
-        write!(self, "forget", |change| owner::forget(change, owner, id)).await
+        change!(self, "forget", |change| owner::forget(change, owner, id)).await
     }
 
     async fn claim(&self, now: Timestamp) -> Result<Option<Claimed>, StoreError> {
-        write!(self, "claim", |change| worker::claim(change, now)).await
+        change!(self, "claim", |change| worker::claim(change, now)).await
     }
 
     async fn renew(&self, claim: Claim, now: Timestamp) -> Result<Renewal, StoreError> {
-        write!(self, "renew", |change| worker::renew(change, claim, now)).await
+        change!(self, "renew", |change| worker::renew(change, claim, now)).await
     }
 
     async fn note(&self, claim: Claim, incumbent: Incumbent, now: Timestamp) -> Result<bool, StoreError> {
-        write!(self, "note", |change| worker::note(change, claim, incumbent, now)).await
+        change!(self, "note", |change| worker::note(change, claim, incumbent, now)).await
     }
 
     async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError> {
-        write!(self, "finish", |change| worker::finish(change, claim, end, now)).await
+        change!(self, "finish", |change| worker::finish(change, claim, end, now)).await
     }
 
     async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError> {
-        write!(self, "hand_back", |change| worker::hand_back(change, claim, now)).await
+        change!(self, "hand_back", |change| worker::hand_back(change, claim, now)).await
     }
 
     async fn sweep(&self, now: Timestamp) -> Result<Swept, StoreError> {
         let mut all = Swept::default();
         // A batch at a time, so that nobody waits long for the one who sweeps.
         loop {
-            let (swept, more) = write!(self, "sweep", |change| sweep::batch(change, now)).await?;
+            let (swept, more) = change!(self, "sweep", |change| sweep::batch(change, now)).await?;
             sweep::add(&mut all, swept);
             if !more {
                 return Ok(all);
@@ -118,11 +117,11 @@ impl Store for SqlStore {
     }
 
     async fn take_callback(&self, lease: Duration, now: Timestamp) -> Result<Option<Callback>, StoreError> {
-        write!(self, "take_callback", |change| callbacks::take(change, lease, now)).await
+        change!(self, "take_callback", |change| callbacks::take(change, lease, now)).await
     }
 
     async fn settle_callback(&self, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), StoreError> {
-        write!(self, "settle_callback", |change| callbacks::settle(change, id, attempt, delivery)).await
+        change!(self, "settle_callback", |change| callbacks::settle(change, id, attempt, delivery)).await
     }
 
     async fn counts(&self) -> Result<Counts, StoreError> {

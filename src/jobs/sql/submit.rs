@@ -70,7 +70,7 @@ async fn next_turn(change: &mut Change<'_>, job: &NewJob) -> Result<i64, Error> 
         "SELECT (SELECT MAX(turn) FROM jobs WHERE state = 'queued' AND owner = $1 AND priority = $2) AS own_last, \
          (SELECT MIN(turn) FROM jobs WHERE state = 'queued' AND priority = $2) AS up",
     );
-    let query = query.bind(job.owner.as_str()).bind(i64::from(job.priority));
+    let query = query.bind(job.owner.as_str()).bind(job.priority);
     let row = query.fetch_one(change.connection()).await?;
     let after_own: Option<i64> = row.try_get::<Option<i64>, _>("own_last")?.map(|last| last + 1);
     let up: Option<i64> = row.try_get("up")?;
@@ -94,7 +94,7 @@ async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp
         .bind(key)
         .bind(position)
         .bind(job.request_sha256.as_str())
-        .bind(i64::from(job.priority))
+        .bind(job.priority)
         .bind(turn)
         .bind(now.as_millis())
         .bind(now.after(change.settings().ttl).as_millis())

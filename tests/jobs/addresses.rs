@@ -1,0 +1,86 @@
+//! Where jobs can be kept: what is made at the first start, what outlives it, and what is said where it can't be.
+
+use singulate::jobs::{JobSettings, open};
+use sqlx::{Connection, Row, SqliteConnection};
+use tokio::task::JoinSet;
+
+use crate::home::{Home, ann, at, job, submitted};
+
+async fn refusal(url: &str) -> String {
+    match open(&JobSettings { url: url.to_owned(), ..JobSettings::default() }).await {
+        Ok(_) => panic!("{url} opens"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[tokio::test]
+async fn jobs_in_a_file_outlive_their_server() {
+    let home = Home::in_a_file();
+    let kept = submitted(&home.store().await, job()).await;
+    let store = home.store().await;
+    assert_eq!(store.get(&ann(), kept.id).await.unwrap(), Some(kept.clone()));
+    assert_eq!(store.claim(at(1)).await.unwrap().unwrap().claim.id, kept.id);
+}
+
+#[tokio::test]
+async fn a_file_is_made_once_however_many_start_at_the_same_time() {
+    let home = Home::in_a_file();
+    let mut starts = JoinSet::new();
+    for _ in 0..8 {
+        let settings = home.settings.clone();
+        starts.spawn(async move {
+            let store = open(&settings).await.unwrap();
+            submitted(&store, job()).await;
+        });
+    }
+    starts.join_all().await;
+    assert_eq!(home.store().await.counts().await.unwrap().queued, 8);
+}
+
+#[tokio::test]
+async fn a_file_has_a_log_that_is_written_ahead() {
+    let home = Home::in_a_file();
+    let store = home.store().await;
+    let mut connection = SqliteConnection::connect(&home.settings.url).await.unwrap();
+    let row = sqlx::query("PRAGMA journal_mode").fetch_one(&mut connection).await.unwrap();
+    assert_eq!(row.get::<String, _>(0), "wal");
+    store.ping().await.unwrap();
+}
+
+#[tokio::test]
+async fn an_address_may_hold_any_name_and_parameters() {
+    let home = Home::in_a_file();
+    for name in ["?mode=rwc", "?cache=private", " and ünïcode.db"] {
+        let settings = JobSettings { url: format!("{}{name}", home.settings.url), ..home.settings.clone() };
+        let store = open(&settings).await.unwrap();
+        submitted(&store, job()).await;
+    }
+    // Relative to where the server runs.
+    let up = "../".repeat(std::env::current_dir().unwrap().components().count());
+    let relative = home.settings.url.replacen('/', &up, 1);
+    let store = open(&JobSettings { url: relative, ..home.settings.clone() }).await.unwrap();
+    assert_eq!(store.counts().await.unwrap().queued, 2);
+    // Read-only, there is nothing to be kept.
+    let error = refusal(&format!("{}?mode=ro", home.settings.url)).await;
+    assert!(error.contains("readonly"), "{error}");
+}
+
+#[tokio::test]
+async fn where_nothing_can_be_kept_the_setting_is_named() {
+    let home = Home::in_a_file();
+    let missing = format!("{}/missing/jobs.db", home.settings.url);
+    let folder = home.settings.url.trim_end_matches("/jobs.db").to_owned();
+    for url in [
+        missing.as_str(),
+        &folder,
+        "sqlite:jobs.db?mode=odd",
+        "postgres://u:secret@127.0.0.1:1/jobs",
+        "mysql://h/d",
+        "",
+    ] {
+        let error = refusal(url).await;
+        assert!(error.starts_with("--jobs-url: "), "{error}");
+        assert!(!error.contains("secret"), "{error}");
+    }
+    assert!(refusal(&missing).await.contains("folder"));
+}
