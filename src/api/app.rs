@@ -7,12 +7,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use tokio::task::spawn_blocking;
+use tracing::Span;
 
-use super::log;
-use super::problem::{internal, refused};
+use super::edge;
+use super::problem::{internal, refusal, refused};
 use super::reading::{Known, Read, Reading};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
+use crate::metrics::{Metrics, Queue, Refusal};
+use crate::traces::Context;
 use crate::wire::{PlanRequest, Problem};
 use crate::workers::{Engine, Outcome, Pool};
 
@@ -21,6 +24,7 @@ pub struct App {
     pub(super) settings: ServerSettings,
     pub(super) engine: Engine,
     pub(super) pool: Pool,
+    pub(super) metrics: Arc<Metrics>,
     draining: AtomicBool,
 }
 
@@ -34,7 +38,7 @@ impl App {
     /// If the system gives no thread.
     pub fn new(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
         let pool = Pool::new(settings.threads, settings.queue)?;
-        Ok(Self { settings, engine, pool, draining: AtomicBool::new(false) })
+        Ok(Self { settings, engine, pool, metrics: Arc::default(), draining: AtomicBool::new(false) })
     }
 
     /// From now on the service says that it is not ready, though it still answers what reaches it.
@@ -57,14 +61,29 @@ impl App {
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
-        log::note_scene(reading.glance().scene_id.as_deref());
-        let own = Arc::clone(&reading);
-        let job = move |budget: &Budget<'_>| work(own.request()?, budget);
-        let pending = self.pool.submit(arrival, reading.glance().time_limit, job).map_err(refused)?;
+        edge::note_scene(reading.glance().scene_id.as_deref());
+        let (own, metrics, span, context) =
+            (Arc::clone(&reading), Arc::clone(&self.metrics), Span::current(), Context::current());
+        let queued = Instant::now();
+        let job = move |budget: &Budget<'_>| {
+            metrics.waited(Queue::Plan, queued.elapsed());
+            // What is logged and traced on the other thread is the request's too.
+            let _context = context.attach();
+            span.in_scope(|| work(own.request()?, budget))
+        };
+        let pending = self.pool.submit(arrival, reading.glance().time_limit, job).map_err(|error| {
+            self.metrics.refused(refusal(error));
+            refused(error)
+        })?;
         match pending.outcome().await {
             Outcome::Done(served) => served,
             Outcome::TimedOut => {
-                spawn_blocking(move || too_late(reading.known())).await.unwrap_or_else(|_| Err(internal()))
+                let told = spawn_blocking(move || too_late(reading.known())).await;
+                let told = told.unwrap_or_else(|_| Err(internal()));
+                if told.is_err() {
+                    self.metrics.refused(Refusal::TooLate);
+                }
+                told
             }
             Outcome::Panicked => Err(internal()),
         }

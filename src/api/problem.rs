@@ -6,6 +6,7 @@ use axum::Json;
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
+use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 use crate::workers::Refused;
 
@@ -41,6 +42,14 @@ pub(super) fn refused(refused: Refused) -> Problem {
         Refused::Closed => ProblemKind::NotReady,
     };
     Problem::new(kind, refused.to_string())
+}
+
+/// The same as a measurement.
+pub(super) fn refusal(refused: Refused) -> Refusal {
+    match refused {
+        Refused::Full => Refusal::Full,
+        Refused::Closed => Refusal::NotReady,
+    }
 }
 
 /// A body that could not be read within its time limit, and nothing can be said without it.

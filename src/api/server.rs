@@ -100,6 +100,7 @@ async fn serve(stream: TcpStream, slot: OwnedSemaphorePermit, service: Router, a
     if let Err(error) = stream.set_nodelay(true) {
         tracing::debug!(%error, "the connection keeps its delay");
     }
+    let open = app.metrics.connection();
     let (stream, quiet) = PatientStream::new(stream, &app.settings);
     let service = TowerToHyperService::new(service);
     let service = service_fn(move |request| {
@@ -118,5 +119,5 @@ async fn serve(stream: TcpStream, slot: OwnedSemaphorePermit, service: Router, a
     if let Err(error) = watcher.watch(connection).await {
         tracing::debug!(%error, "a connection ended early");
     }
-    drop(slot);
+    drop((slot, open));
 }

@@ -108,6 +108,12 @@ impl Pool {
         self.shared.lock().idle
     }
 
+    /// The number of threads that run one.
+    pub fn busy(&self) -> usize {
+        let threads = lock(&self.threads).len();
+        threads.saturating_sub(self.idle())
+    }
+
     /// Take no more jobs.
     pub fn close(&self) {
         self.shared.lock().open = false;
@@ -221,6 +227,7 @@ mod tests {
         let pool = Pool::new(1, 1).unwrap();
         let running = pool.submit(Instant::now(), LONG, endless).unwrap();
         wait_until(|| pool.idle() == 0);
+        assert_eq!(pool.busy(), 1);
         let waiting = pool.submit(Instant::now(), LONG, endless).unwrap();
         assert_eq!(pool.submit(Instant::now(), LONG, endless).unwrap_err(), Refused::Full);
         drop(waiting);

@@ -9,5 +9,6 @@ mod golden;
 mod haste;
 mod host;
 mod knowledge;
+mod metrics;
 mod negotiation;
 mod planning;
