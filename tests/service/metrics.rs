@@ -7,8 +7,9 @@ use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
 use singulate::metrics::{CallbackOutcome, Ended, Metrics, Queue, Refusal, StoreOutcome};
 use singulate::plan::{Answer, Statistics, Unplanned, Verdict};
+use tokio::time::timeout;
 
-use crate::host::{Host, scene, wait_until};
+use crate::host::{Host, PATIENCE, raw_post, scene};
 
 /// A family: its kind and its series, each with its value.
 #[derive(Debug, Default)]
@@ -206,38 +207,30 @@ async fn nothing_that_clients_make_up_becomes_a_label() {
     );
 }
 
+/// Ask until it is so.
+async fn until(host: &Host, condition: impl Fn(&BTreeMap<String, Family>) -> bool) {
+    let asking = async { while !condition(&parse(&host.get("/metrics").await.text)) {} };
+    timeout(PATIENCE, asking).await.expect("it happens in time");
+}
+
 #[tokio::test]
-async fn what_is_turned_away_is_counted_by_its_reason() {
+async fn what_is_turned_away_and_who_hangs_up_is_counted() {
     let settings = ServerSettings { threads: 1, queue: 0, ..ServerSettings::default() };
-    fn endless(budget: &singulate::budget::Budget<'_>) {
-        while budget.check().is_ok() {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-    }
     let engine = Engine {
         survey: |_, budget| {
-            endless(budget);
+            while budget.check().is_ok() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
             Ok(Vec::new())
         },
         ..Engine::default()
     };
     let host = Host::with(settings, engine).await;
-    let held = host.raw(&crate::host::raw_post("/v1/survey", &scene(60_000)));
-    let mut busy = false;
-    while !busy {
-        busy = host.get("/metrics").await.text.contains("singulate_threads_busy{kind=\"plan\"} 1");
-        tokio::time::sleep(Duration::from_millis(1)).await;
-    }
+    let held = host.raw(&raw_post("/v1/survey", &scene(60_000)));
+    until(&host, |families| count(families, "singulate_threads_busy", &["kind=\"plan\""]) > 0.5).await;
     assert_eq!(host.post("/v1/plans", &scene(10_000)).await.status, 503);
-    let families = parse(&host.get("/metrics").await.text);
-    assert!((count(&families, "singulate_requests_refused", &["reason=\"full\""]) - 1.0).abs() < 0.5);
+    until(&host, |families| count(families, "singulate_requests_refused", &["reason=\"full\""]) > 0.5).await;
     drop(held);
-    // Who hung up is told from who was answered.
-    let mut seen = false;
-    while !seen {
-        let families = parse(&host.get("/metrics").await.text);
-        seen =
-            count(&families, "singulate_http_request_seconds", &["route=\"/v1/survey\"", "status=\"hung_up\""]) > 0.5;
-    }
-    wait_until(|| seen).await;
+    let gone = ["route=\"/v1/survey\"", "status=\"hung_up\""];
+    until(&host, |families| count(families, "singulate_http_request_seconds", &gone) > 0.5).await;
 }
