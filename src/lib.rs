@@ -4,7 +4,8 @@
 //! must go first; the [`search`] for the least set of them, with its proof; the [`placement`] of what is moved; the
 //! [`paper`]'s own methods; the [`plan`] that couples these and its independent checker. Round that pure core lie the
 //! edges: [`wire`] knows JSON, [`workers`] threads, [`jobs`] what outlives them, [`api`] HTTP, [`render`] drawings, [`experiments`] made-up scenes and the
-//! paper's tables, [`cli`] the command line, [`config`] its settings and [`telemetry`] the log.
+//! paper's tables, [`metrics`] what is counted and timed, [`traces`] which call led to what, [`cli`] the command line,
+//! [`config`] its settings and [`telemetry`] where log lines and traces go.
 
 pub mod api;
 pub mod budget;
@@ -14,6 +15,7 @@ pub mod experiments;
 pub mod geometry;
 pub mod jobs;
 pub mod knowledge;
+pub mod metrics;
 pub mod paper;
 pub mod placement;
 pub mod plan;
@@ -21,5 +23,6 @@ pub mod render;
 pub mod scene;
 pub mod search;
 pub mod telemetry;
+pub mod traces;
 pub mod wire;
 pub mod workers;

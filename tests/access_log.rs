@@ -11,6 +11,8 @@ use singulate::api::{App, Engine, ServerSettings, router};
 use singulate::jobs::JobSettings;
 use tower::ServiceExt;
 
+const TRACE: &str = "0af7651916cd43dd8448eb211c80319c";
+
 #[derive(Clone, Default)]
 struct Pages(Arc<Mutex<Vec<u8>>>);
 
@@ -25,7 +27,7 @@ impl Write for Pages {
 }
 
 #[tokio::test]
-async fn a_planning_call_leaves_one_line_that_names_its_scene() {
+async fn a_planning_call_leaves_one_line_that_names_its_scene_and_its_trace() {
     let pages = Pages::default();
     let writer = pages.clone();
     let subscriber = tracing_subscriber::fmt().with_ansi(false).with_writer(move || writer.clone()).finish();
@@ -37,11 +39,13 @@ async fn a_planning_call_leaves_one_line_that_names_its_scene() {
         "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
         "objects": [{"id": "a", "x": 0.5, "y": 0.5, "radius": 0.1}], "target": "a"}"#;
     let request = Request::post("/v1/plans").header(header::CONTENT_TYPE, "application/json");
+    let request =
+        request.header("x-request-id", "mine").header("traceparent", format!("00-{TRACE}-b7ad6b7169203331-01"));
     let response = router(app).oneshot(request.body(Body::from(body)).unwrap()).await.unwrap();
-    assert_eq!(response.status(), 200);
+    assert_eq!((response.status().as_u16(), &response.headers()["x-request-id"]), (200, &"mine".parse().unwrap()));
     let text = String::from_utf8(pages.0.lock().unwrap().clone()).unwrap();
     assert_eq!(text.lines().count(), 1, "{text}");
-    for part in ["POST", "/v1/plans", "cell-4/17", "status=200", "ms="] {
+    for part in ["POST", "/v1/plans", "id=\"mine\"", TRACE, "cell-4/17", "status=200", "ms="] {
         assert!(text.contains(part), "{part} in {text}");
     }
 }

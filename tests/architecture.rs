@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms, lowest first: each may name those before it, none may name one after it.
-const ROOMS: [&str; 17] = [
+const ROOMS: [&str; 19] = [
     "budget",
     "scene",
     "geometry",
@@ -18,6 +18,8 @@ const ROOMS: [&str; 17] = [
     "experiments",
     "render",
     "wire",
+    "metrics",
+    "traces",
     "workers",
     "jobs",
     "api",
@@ -167,7 +169,7 @@ fn only_wire_and_above_know_json() {
         if ["render", "experiments"].contains(&room.as_str()) {
             assert!(!names(&text, "serde_json") && !names(&text, "serde"), "{} names serde", path.display());
         }
-        if ["render", "experiments", "wire", "workers", "jobs"].contains(&room.as_str()) {
+        if ["render", "experiments", "wire", "metrics", "traces", "workers", "jobs"].contains(&room.as_str()) {
             assert!(!names(&text, "axum"), "{} names axum", path.display());
         }
     }

@@ -8,15 +8,18 @@ use std::time::Instant;
 
 use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
+use tracing::Span;
 
-use super::log;
-use super::problem::{internal, not_ready, refused, unread};
+use super::edge;
+use super::problem::{internal, not_ready, refusal, refused, unread};
 use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
 use crate::jobs::{self, Owner, Runner, Store};
+use crate::metrics::{Metrics, Queue, Refusal};
+use crate::traces::Context;
 use crate::wire::{PlanRequest, Problem, RequestLimits};
-use crate::workers::{Draining, Engine, Outcome, Pool};
+use crate::workers::{Draining, Engine, Outcome, Pending, Pool};
 
 /// The service's state.
 pub struct App {
@@ -25,6 +28,7 @@ pub struct App {
     pub(super) pool: Pool,
     pub(super) store: Arc<dyn Store>,
     pub(super) runner: Arc<Runner>,
+    pub(super) metrics: Arc<Metrics>,
     /// Room for clients that wait for a job.
     pub(super) waiting: Semaphore,
     /// Room for streams of events.
@@ -44,12 +48,22 @@ impl App {
     /// # Errors
     /// If the store can't be opened, or the system gives no thread.
     pub async fn start(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
-        let store = jobs::open(&settings.jobs).await.map_err(io::Error::other)?;
+        let metrics = Arc::<Metrics>::default();
+        let store = jobs::open(&settings.jobs, Arc::clone(&metrics)).await.map_err(io::Error::other)?;
         let pool = Pool::new(settings.threads, settings.queue)?;
-        let runner = Arc::new(Runner::new(Arc::clone(&store), &settings.jobs, engine, settings.limits)?);
+        let runner = Runner::new(Arc::clone(&store), Arc::clone(&metrics), &settings.jobs, engine, settings.limits)?;
         let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
-        let draining = Draining::default();
-        Ok(Self { settings, engine, pool, store, runner, waiting, streams: Arc::new(streams), draining })
+        Ok(Self {
+            settings,
+            engine,
+            pool,
+            store,
+            runner: Arc::new(runner),
+            metrics,
+            waiting,
+            streams: Arc::new(streams),
+            draining: Draining::default(),
+        })
     }
 
     /// From now on the service says that it is not ready, and begins nothing new.
@@ -89,13 +103,33 @@ impl App {
         if body.len() <= SMALL_BODY {
             return read(&body, &limits);
         }
-        let job = move |_: &Budget<'_>| read(&body, &limits);
-        let pending = self.pool.submit(owner.as_str(), arrival, READING_LIMIT, job);
-        match pending.map_err(refused)?.outcome().await {
+        let pending = self.begin(owner, arrival, READING_LIMIT, move |_| read(&body, &limits))?;
+        match pending.outcome().await {
             Outcome::Done(read) => read,
             Outcome::TimedOut => Err(unread()),
             Outcome::Panicked => Err(internal()),
         }
+    }
+
+    /// Run `work` on the planning pool. What is logged and traced there is the request's too.
+    fn begin<T: Send + 'static>(
+        &self,
+        owner: &Owner,
+        arrival: Instant,
+        time_limit: Duration,
+        work: impl FnOnce(&Budget<'_>) -> T + Send + 'static,
+    ) -> Result<Pending<T>, Problem> {
+        let (metrics, span, context) = (Arc::clone(&self.metrics), Span::current(), Context::current());
+        let queued = Instant::now();
+        let work = move |budget: &Budget<'_>| {
+            metrics.waited(Queue::Plan, queued.elapsed());
+            let _context = context.attach();
+            span.in_scope(|| work(budget))
+        };
+        self.pool.submit(owner.as_str(), arrival, time_limit, work).map_err(|error| {
+            self.metrics.refused(refusal(error));
+            refused(error)
+        })
     }
 
     /// Read the body and run `work` on the planning pool; where the time limit comes first, `too_late` says what is left
@@ -109,17 +143,20 @@ impl App {
     ) -> Served {
         self.takes_work()?;
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
-        log::note_scene(reading.glance().scene_id.as_deref());
+        edge::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);
-        let job = move |budget: &Budget<'_>| work(own.request()?, budget);
-        let pending = self
-            .pool
-            .submit(Owner::anonymous().as_str(), arrival, reading.glance().time_limit, job)
-            .map_err(refused)?;
+        let time_limit = reading.glance().time_limit;
+        let pending =
+            self.begin(&Owner::anonymous(), arrival, time_limit, move |budget| work(own.request()?, budget))?;
         match pending.outcome().await {
             Outcome::Done(served) => served,
             Outcome::TimedOut => {
-                spawn_blocking(move || too_late(reading.known())).await.unwrap_or_else(|_| Err(internal()))
+                let told = spawn_blocking(move || too_late(reading.known())).await;
+                let told = told.unwrap_or_else(|_| Err(internal()));
+                if told.is_err() {
+                    self.metrics.refused(Refusal::TooLate);
+                }
+                told
             }
             Outcome::Panicked => Err(reading.panicked()),
         }

@@ -95,6 +95,7 @@ async fn serve(
 ) {
     // Answers are small and waited for. A connection that keeps its delay serves all the same.
     let _ = stream.set_nodelay(true);
+    let open = app.metrics.connection();
     let (stream, quiet) = PatientStream::new(stream, &app.settings);
     let service = TowerToHyperService::new(service);
     let asked = OnceLock::new();
@@ -121,7 +122,7 @@ async fn serve(
         }
     };
     note(ended);
-    drop(slot);
+    drop((slot, open));
 }
 
 fn note(ended: hyper::Result<()>) {

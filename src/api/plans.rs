@@ -40,8 +40,12 @@ pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) ->
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
     let body = body::receive(request, &app.settings).await?;
-    let engine = app.engine;
-    let work = move |request: &PlanRequest, budget: &Budget<'_>| write(form, request, &engine.answer(request, budget)?);
+    let (engine, metrics) = (app.engine, Arc::clone(&app.metrics));
+    let work = move |request: &PlanRequest, budget: &Budget<'_>| {
+        let answer = engine.answer(request, budget)?;
+        metrics.planned(&answer);
+        write(form, request, &answer)
+    };
     let too_late = move |known: Known<'_, PlanRequest>| match (known, form) {
         (Known::Request(request), _) => {
             let verdict = Verdict::TimedOut(Unplanned::default());

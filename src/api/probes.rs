@@ -33,7 +33,7 @@ pub(super) struct VersionBody {
 }
 
 /// How long the store of jobs may take to answer a probe; probes themselves wait for about a second.
-const STORE_PATIENCE: Duration = Duration::from_millis(500);
+pub(super) const STORE_PATIENCE: Duration = Duration::from_millis(500);
 
 const OK: Json<ProbeBody> = Json(ProbeBody { status: "ok" });
 

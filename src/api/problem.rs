@@ -7,6 +7,7 @@ use axum::Json;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
+use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 use crate::workers::Refused;
 
@@ -65,6 +66,15 @@ pub(super) fn refused(refused: Refused) -> Problem {
 /// The service shuts down.
 pub(super) fn not_ready() -> Problem {
     Problem::new(ProblemKind::NotReady, "the service shuts down and begins nothing new")
+}
+
+/// The same as a measurement.
+pub(super) fn refusal(refused: Refused) -> Refusal {
+    match refused {
+        Refused::Full => Refusal::Full,
+        Refused::TooLate { .. } => Refusal::TooLate,
+        Refused::Closed => Refusal::NotReady,
+    }
 }
 
 /// A body that could not be read within its time limit, and nothing can be said without it.

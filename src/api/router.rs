@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use axum::Router;
-use axum::middleware::from_fn;
+use axum::middleware::from_fn_with_state;
 use axum::routing::get;
 use tower_http::catch_panic::CatchPanicLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::app::App;
-use super::{docs, document, jobs, knowledge, log, plans, probes, problem, survey, verification};
+use super::{docs, document, edge, jobs, knowledge, metrics, plans, probes, problem, survey, verification};
 
 /// The routes that the interface document describes.
 pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
@@ -27,6 +27,7 @@ pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(probes::livez))
         .routes(routes!(probes::readyz))
         .routes(routes!(probes::version))
+        .routes(routes!(metrics::metrics))
         .routes(routes!(document::serve))
 }
 
@@ -40,6 +41,6 @@ pub fn router(app: Arc<App>) -> Router {
         .fallback(problem::not_found)
         .method_not_allowed_fallback(problem::method_not_allowed)
         .layer(CatchPanicLayer::custom(problem::panicked))
-        .layer(from_fn(log::each_request))
+        .layer(from_fn_with_state(Arc::clone(&app), edge::each_request))
         .with_state(app)
 }

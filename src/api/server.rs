@@ -71,7 +71,8 @@ impl Background {
         jobs.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
         jobs.close();
         let (callbacks, silence) = (TaskTracker::new(), CancellationToken::new());
-        let delivery = CallbackDelivery::new(Arc::clone(&app.store), &app.settings.jobs, jobs::message);
+        let (store, metrics) = (Arc::clone(&app.store), Arc::clone(&app.metrics));
+        let delivery = CallbackDelivery::new(store, &app.settings.jobs, jobs::message, metrics);
         if let Some(delivery) = delivery.map_err(io::Error::other)? {
             callbacks.spawn(delivery.run(silence.clone().cancelled_owned()));
         }

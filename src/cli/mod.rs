@@ -106,6 +106,6 @@ impl Cli {
 /// The settings, and the log begun as they say.
 fn configure(stated: &Stated) -> Result<Config, Failure> {
     let config = config::load(stated, std::env::vars_os())?;
-    telemetry::init(&config.log, config.log_format).map_err(Failure::Broken)?;
+    telemetry::init(&config.log, config.log_format, None).map_err(Failure::Broken)?;
     Ok(config)
 }

@@ -6,9 +6,10 @@ use clap::Args;
 use tokio::net::TcpListener;
 
 use super::flags::Flags;
-use super::{Failure, configure, open_files, output};
+use super::{Failure, open_files, output};
 use crate::api;
-use crate::config::Config;
+use crate::config::{self, Config};
+use crate::telemetry;
 
 /// A plate between two others and a fixed vase: small enough for one line, and something has to move.
 const SCENE: &str = include_str!("example.json");
@@ -22,13 +23,18 @@ pub(super) struct Serve {
 
 impl Serve {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let config = configure(&self.flags.0)?;
+        let config = config::load(&self.flags.0, std::env::vars_os())?;
         config.check_service()?;
+        let traces = telemetry::init(&config.log, config.log_format, config.otlp_endpoint.as_ref());
+        let traces = traces.map_err(Failure::Broken)?;
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
         let served = runtime.block_on(serve(config));
         // Nothing is left that would be worth waiting for.
         runtime.shutdown_background();
+        if let Some(traces) = traces {
+            traces.finish();
+        }
         served
     }
 }

@@ -10,7 +10,7 @@ use crate::api::ServerSettings;
 pub use load::{ConfigError, Source, Stated, load};
 pub use setting::{SETTINGS, Scope, Setting};
 
-use crate::telemetry::LogFormat;
+use crate::telemetry::{Endpoint, LogFormat};
 
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,8 @@ pub struct Config {
     pub log: String,
     /// How they are written.
     pub log_format: LogFormat,
+    /// Where traces go, if anywhere.
+    pub otlp_endpoint: Option<Endpoint>,
 }
 
 impl Config {
@@ -47,6 +49,7 @@ impl Default for Config {
             server: ServerSettings::default(),
             log: "info".to_owned(),
             log_format: LogFormat::default(),
+            otlp_endpoint: None,
         }
     }
 }

@@ -217,6 +217,17 @@ pub static SETTINGS: &[Setting] = &[
         get: |config| if config.server.jobs.callback_secret.is_some() { "hidden" } else { "none" }.to_owned(),
     },
     Setting {
+        name: "otlp_endpoint",
+        scope: Scope::Service,
+        placeholder: "URL|off",
+        help: "Where traces go: a collector of OTLP over HTTP, such as http://localhost:4318",
+        set: |config, text| {
+            config.otlp_endpoint = if text == "off" { None } else { Some(text.parse()?) };
+            Ok(())
+        },
+        get: |config| config.otlp_endpoint.as_ref().map_or("off".to_owned(), ToString::to_string),
+    },
+    Setting {
         name: "max_objects",
         scope: Scope::Planning,
         placeholder: "N",

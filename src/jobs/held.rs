@@ -63,17 +63,21 @@ impl Held {
         }
     }
 
-    /// Keep the end, however long the store is away, until the server has no more time.
-    pub(super) async fn finish(&self, best: Option<Incumbent>, end: &End, over: &CancellationToken) {
+    /// Keep the end, however long the store is away, until the server has no more time. True if it is kept.
+    pub(super) async fn finish(&self, best: Option<Incumbent>, end: &End, over: &CancellationToken) -> bool {
         let mut pause = Pause::default();
         loop {
             match self.try_finish(best, end).await {
-                Ok(true) => return,
-                Ok(false) => return self.warn("the lease was lost before the end was kept", None),
+                Ok(true) => return true,
+                Ok(false) => {
+                    self.warn("the lease was lost before the end was kept", None);
+                    return false;
+                }
                 Err(error) => self.warn("the end could not be kept yet", Some(&error)),
             }
             if over.run_until_cancelled(pause.pass()).await.is_none() {
-                return self.warn("the end is lost, the job will run again", None);
+                self.warn("the end is lost, the job will run again", None);
+                return false;
             }
         }
     }

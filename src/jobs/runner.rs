@@ -3,6 +3,7 @@
 use core::time::Duration;
 use std::collections::HashMap;
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
@@ -11,13 +12,14 @@ use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
 use super::held::Held;
-use super::job::JobId;
+use super::job::{End, JobId};
 use super::pause::Pause;
 use super::settings::JobSettings;
 use super::store::{Claimed, Store};
 use super::sweeper::sweep;
 use super::timestamp::Timestamp;
 use super::work::{Tools, Work};
+use crate::metrics::{Ended, Metrics, Queue};
 use crate::wire::RequestLimits;
 use crate::workers::{Draining, Engine, Pool, Recall};
 
@@ -30,8 +32,22 @@ pub struct Runner {
     tools: Tools,
     lease: Duration,
     slots: Arc<Semaphore>,
-    /// What runs here, each with the means to end it.
-    running: Mutex<HashMap<JobId, Recall>>,
+    metrics: Arc<Metrics>,
+    running: Mutex<HashMap<JobId, Running>>,
+}
+
+/// A job that runs here.
+struct Running {
+    recall: Recall,
+    /// True once its caller wants no more than the best so far.
+    cancelled: Arc<AtomicBool>,
+}
+
+impl Running {
+    fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+        self.recall.finish_soon();
+    }
 }
 
 impl Runner {
@@ -41,6 +57,7 @@ impl Runner {
     /// If the system gives no thread.
     pub fn new(
         store: Arc<dyn Store>,
+        metrics: Arc<Metrics>,
         settings: &JobSettings,
         engine: Engine,
         limits: RequestLimits,
@@ -50,9 +67,10 @@ impl Runner {
             store,
             // A thread may need a moment to become idle after its job has ended.
             pool: Pool::new(threads, threads)?,
-            tools: Tools { engine, limits },
+            tools: Tools { engine, limits, metrics: Arc::clone(&metrics) },
             lease: settings.lease,
             slots: Arc::new(Semaphore::new(threads)),
+            metrics,
             running: Mutex::default(),
         })
     }
@@ -60,7 +78,7 @@ impl Runner {
     /// Take jobs until `draining`; see those that run to their end, but hand back what still runs at `over`.
     pub async fn run(self: Arc<Self>, draining: Draining, over: CancellationToken) {
         let tasks = TaskTracker::new();
-        tasks.spawn(sweep(Arc::clone(&self.store), self.lease, draining.clone()));
+        tasks.spawn(sweep(Arc::clone(&self.store), Arc::clone(&self.metrics), self.lease, draining.clone()));
         let mut pause = Pause::default();
         while let Some(slot) = draining.unless_begun(self.slot()).await {
             let hint = self.store.hints().work.notified();
@@ -92,10 +110,15 @@ impl Runner {
         self.pool.ready()
     }
 
-    /// A job that runs here ends now, with the best so far.
-    pub fn end_soon(&self, id: JobId) {
-        if let Some(recall) = self.running().get(&id) {
-            recall.finish_soon();
+    /// The number of threads that plan for jobs.
+    pub fn busy(&self) -> usize {
+        self.pool.busy()
+    }
+
+    /// A job whose caller cancelled it ends now, with the best so far, if it runs here.
+    pub fn cancel(&self, id: JobId) {
+        if let Some(running) = self.running().get(&id) {
+            running.cancel();
         }
     }
 
@@ -109,18 +132,20 @@ impl Runner {
     }
 
     async fn attempt(self: Arc<Self>, claimed: Claimed, slot: OwnedSemaphorePermit, over: CancellationToken) {
-        let Claimed { claim, body, .. } = claimed;
+        let Claimed { claim, body, attempt, created_at } = claimed;
+        self.metrics.attempt(attempt);
+        self.metrics.waited(Queue::Job, Timestamp::now().since(created_at));
         let (watcher, mut incumbent) = watch::channel(None);
         let held = Held::new(Arc::clone(&self.store), claim, self.lease);
-        let Ok(work) = Work::begin(body, &self.pool, self.tools, watcher) else {
+        let Ok(work) = Work::begin(body, &self.pool, &self.tools, watcher) else {
             return held.hand_back().await;
         };
-        let recall = work.recall();
-        self.running().insert(claim.id, recall.clone());
+        let cancelled = Arc::<AtomicBool>::default();
+        self.running().insert(claim.id, Running { recall: work.recall(), cancelled: Arc::clone(&cancelled) });
         let ended = tokio::select! {
             end = work.end() => Some(end),
             // Somebody else has the job now.
-            () = held.keep(&mut incumbent, || recall.finish_soon()) => None,
+            () = held.keep(&mut incumbent, || self.cancel(claim.id)) => None,
             () = over.cancelled() => {
                 held.hand_back().await;
                 None
@@ -129,12 +154,18 @@ impl Runner {
         self.running().remove(&claim.id);
         if let Some(end) = ended {
             let best = *incumbent.borrow();
-            held.finish(best, &end, &over).await;
+            if held.finish(best, &end, &over).await {
+                self.metrics.job_ended(match end {
+                    _ if cancelled.load(Ordering::Relaxed) => Ended::Cancelled,
+                    End::Succeeded(_) => Ended::Succeeded,
+                    End::Failed(_) => Ended::Failed,
+                });
+            }
         }
         drop(slot);
     }
 
-    fn running(&self) -> MutexGuard<'_, HashMap<JobId, Recall>> {
+    fn running(&self) -> MutexGuard<'_, HashMap<JobId, Running>> {
         // No invariant of the map can be broken by a panic.
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -8,6 +8,7 @@ use tokio::sync::watch;
 
 use super::job::End;
 use crate::budget::{Budget, Incumbent};
+use crate::metrics::Metrics;
 use crate::wire::{AnswerBody, Glance, Problem, ProblemKind, RequestLimits, read_job};
 use crate::workers::{Engine, Outcome, Pending, Pool, Recall, Refused};
 
@@ -15,10 +16,11 @@ use crate::workers::{Engine, Outcome, Pending, Pool, Recall, Refused};
 const WORKER: &str = "worker";
 
 /// What a worker needs besides the job.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Tools {
     pub(super) engine: Engine,
     pub(super) limits: RequestLimits,
+    pub(super) metrics: Arc<Metrics>,
 }
 
 /// A job that a worker has.
@@ -36,17 +38,17 @@ impl Work {
     pub(super) fn begin(
         body: Vec<u8>,
         pool: &Pool,
-        tools: Tools,
+        tools: &Tools,
         watcher: watch::Sender<Option<Incumbent>>,
     ) -> Result<Self, Refused> {
         let (arrival, body) = (Instant::now(), Arc::new(body));
         let glance = Glance::at(&body, &tools.limits);
-        let own = Arc::clone(&body);
+        let (own, tools) = (Arc::clone(&body), tools.clone());
         let job = move |budget: &Budget<'_>| {
             let observer = |incumbent| {
                 watcher.send_if_modified(|last| last.replace(incumbent) != Some(incumbent));
             };
-            plan(&own, tools, &budget.observed(&observer))
+            plan(&own, &tools, &budget.observed(&observer))
         };
         let pending = pool.submit(WORKER, arrival, glance.time_limit, job)?;
         Ok(Self { pending, body, glance })
@@ -72,10 +74,11 @@ impl Work {
     }
 }
 
-fn plan(body: &[u8], tools: Tools, budget: &Budget<'_>) -> Result<String, Problem> {
+fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<String, Problem> {
     // It was read before it was accepted; but that may have been another version, with other limits.
     let request = read_job(body, &tools.limits)?.plan;
     let answer = tools.engine.answer(&request, budget)?;
+    tools.metrics.planned(&answer);
     written(&AnswerBody::new(&request, &answer))
 }
 

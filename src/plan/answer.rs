@@ -84,6 +84,14 @@ pub struct Answer {
     pub statistics: Statistics,
 }
 
+impl Statistics {
+    /// Every phase with its name, in order.
+    pub fn phases(&self) -> [(&'static str, Duration); 4] {
+        let Self { knowledge, search, placement, check } = *self;
+        [("knowledge", knowledge), ("search", search), ("placement", placement), ("check", check)]
+    }
+}
+
 impl Plan {
     /// The number of relocations.
     pub fn cost(&self) -> usize {
@@ -121,6 +129,17 @@ impl Default for Unplanned {
 }
 
 impl Verdict {
+    /// Its name, as it is written everywhere.
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Self::Graspable(_) => "graspable",
+            Self::Relocate(_) => "relocate",
+            Self::Deadlock(_) => "deadlock",
+            Self::NoSpace(_) => "no_space",
+            Self::TimedOut(_) => "timed_out",
+        }
+    }
+
     /// The bound, where the verdict has one to prove.
     pub(super) fn bound_mut(&mut self) -> Option<&mut LowerBound> {
         match self {

@@ -4,6 +4,7 @@ use crate::budget::Budget;
 use crate::plan::check::{self, Report};
 use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
 use crate::scene::Scene;
+use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody};
 
 /// The computations. The default is the planner; a test may stand in another.
@@ -29,7 +30,12 @@ impl Engine {
     /// # Errors
     /// A problem where there is no answer.
     pub fn answer(&self, request: &PlanRequest, budget: &Budget<'_>) -> Result<Answer, Problem> {
-        (self.plan)(&request.scene, &request.settings, budget).map_err(|error| plan_failed(request, &error))
+        let span = PlanSpan::begin();
+        let answer = (self.plan)(&request.scene, &request.settings, budget);
+        if let (Some(span), Ok(answer)) = (&span, &answer) {
+            span.answered(answer);
+        }
+        answer.map_err(|error| plan_failed(request, &error))
     }
 
     /// Survey a request's scene.

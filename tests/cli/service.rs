@@ -1,7 +1,9 @@
 //! The service as a process.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Child, ChildStdout, Stdio};
+use std::net::TcpListener;
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::{answered, failed, run, singulate};
 
@@ -13,10 +15,15 @@ struct Service {
 }
 
 impl Service {
-    /// Without a command it serves: only variables say where.
     fn start() -> Self {
+        Self::with(&[])
+    }
+
+    /// Without a command it serves: only variables say where.
+    fn with(variables: &[(&str, &str)]) -> Self {
         let mut command = singulate(&[]);
         command.env("SINGULATE_LISTEN", "127.0.0.1:0").env("SINGULATE_LOG", "warn");
+        command.envs(variables.iter().copied());
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
@@ -73,4 +80,26 @@ fn a_service_that_is_not_there_is_not_healthy() {
     // Port 9 discards; nobody listens there on this machine.
     failed(&run(&["healthcheck", "--url", "http://127.0.0.1:9/readyz"]), 1);
     failed(&run(&["healthcheck", "--url", "no url"]), 2);
+}
+
+#[test]
+fn a_service_ends_though_its_collector_never_answers() {
+    let collector = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("http://{}", collector.local_addr().unwrap());
+    let mut service = Service::with(&[("SINGULATE_OTLP_ENDPOINT", &url)]);
+    answered(run(&["healthcheck", "--url", &format!("{}/readyz", service.url)]));
+    let id = service.child.id().to_string();
+    assert!(Command::new("kill").arg(id).status().unwrap().success());
+    let started = Instant::now();
+    let status = loop {
+        if let Some(status) = service.child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(started.elapsed() < Duration::from_secs(60), "it waits for its collector");
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    assert_eq!(status.code(), Some(0));
+    // It did try.
+    collector.set_nonblocking(true).unwrap();
+    collector.accept().unwrap();
 }

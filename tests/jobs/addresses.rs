@@ -1,5 +1,7 @@
 //! Where jobs can be kept: what is made at the first start, what outlives it, and what is said where it can't be.
 
+use std::sync::Arc;
+
 use singulate::jobs::{JobSettings, open};
 use sqlx::{Connection, Row, SqliteConnection};
 use tokio::task::JoinSet;
@@ -7,7 +9,7 @@ use tokio::task::JoinSet;
 use crate::home::{Home, ann, at, job, submitted};
 
 async fn refusal(url: &str) -> String {
-    match open(&JobSettings { url: url.to_owned(), ..JobSettings::default() }).await {
+    match open(&JobSettings { url: url.to_owned(), ..JobSettings::default() }, Arc::default()).await {
         Ok(_) => panic!("{url} opens"),
         Err(error) => error.to_string(),
     }
@@ -29,7 +31,7 @@ async fn a_file_is_made_once_however_many_start_at_the_same_time() {
     for _ in 0..8 {
         let settings = home.settings.clone();
         starts.spawn(async move {
-            let store = open(&settings).await.unwrap();
+            let store = open(&settings, Arc::default()).await.unwrap();
             submitted(&store, job()).await;
         });
     }
@@ -52,13 +54,13 @@ async fn an_address_may_hold_any_name_and_parameters() {
     let home = Home::in_a_file();
     for name in ["?mode=rwc", "?cache=private", " and ünïcode.db"] {
         let settings = JobSettings { url: format!("{}{name}", home.settings.url), ..home.settings.clone() };
-        let store = open(&settings).await.unwrap();
+        let store = open(&settings, Arc::default()).await.unwrap();
         submitted(&store, job()).await;
     }
     // Relative to where the server runs.
     let up = "../".repeat(std::env::current_dir().unwrap().components().count());
     let relative = home.settings.url.replacen('/', &up, 1);
-    let store = open(&JobSettings { url: relative, ..home.settings.clone() }).await.unwrap();
+    let store = open(&JobSettings { url: relative, ..home.settings.clone() }, Arc::default()).await.unwrap();
     assert_eq!(store.counts().await.unwrap().queued, 2);
     // Read-only, there is nothing to be kept.
     let error = refusal(&format!("{}?mode=ro", home.settings.url)).await;

@@ -44,7 +44,8 @@ pub(crate) fn postgres_url() -> Option<String> {
 
 impl Home {
     fn at(url: String) -> Self {
-        let settings = JobSettings { url, threads: 1, max_queued: 1000, lease: LEASE, ttl: TTL, ..JobSettings::default() };
+        let settings =
+            JobSettings { url, threads: 1, max_queued: 1000, lease: LEASE, ttl: TTL, ..JobSettings::default() };
         Self { settings, only: None, _folder: None, schema: None }
     }
 
@@ -60,7 +61,7 @@ impl Home {
     }
 
     async fn opened(self) -> Self {
-        Self { only: Some(open(&self.settings).await.unwrap()), ..self }
+        Self { only: Some(open(&self.settings, Arc::default()).await.unwrap()), ..self }
     }
 
     /// Nothing where there is no PostgreSQL to test with. One that can't be reached is a failure.
@@ -77,7 +78,7 @@ impl Home {
     pub(crate) async fn store(&self) -> Arc<dyn Store> {
         match &self.only {
             Some(only) => Arc::clone(only),
-            None => open(&self.settings).await.unwrap(),
+            None => open(&self.settings, Arc::default()).await.unwrap(),
         }
     }
 

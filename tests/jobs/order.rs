@@ -22,10 +22,10 @@ async fn of(store: &Arc<dyn Store>, owner: Owner, priority: i64) -> JobId {
 pub(crate) async fn priorities_go_first_and_then_the_earliest(home: &Home) {
     let store = home.store().await;
     let mut expected = Vec::new();
-    for priority in [0, 5, -7, 5, i32::MAX, 0, i32::MIN] {
+    for priority in [0, 5, -7, 5, i64::MAX, 0, i64::MIN] {
         expected.push((priority, of(&store, ann(), priority).await));
     }
-    expected.sort_by_key(|(priority, id)| (-i64::from(*priority), *id));
+    expected.sort_by_key(|(priority, id)| (core::cmp::Reverse(*priority), *id));
     assert_eq!(claims(&store).await, expected.iter().map(|(_, id)| *id).collect::<Vec<_>>());
 }
 

@@ -1,5 +1,7 @@
 //! What only PostgreSQL has: servers that hear each other, and connections that break.
 
+use std::sync::Arc;
+
 use core::time::Duration;
 
 use singulate::jobs::{End, NewJob};
@@ -56,7 +58,7 @@ async fn tables_are_made_once_however_many_start_at_the_same_time() {
     for _ in 0..4 {
         let settings = home.settings.clone();
         starts.spawn(async move {
-            let store = singulate::jobs::open(&settings).await.unwrap();
+            let store = singulate::jobs::open(&settings, Arc::default()).await.unwrap();
             submitted(&store, job()).await;
         });
     }

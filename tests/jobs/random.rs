@@ -66,7 +66,7 @@ fn step() -> impl Strategy<Value = Step> {
     let incumbent = (3..6_usize, 0..3_usize).prop_map(|(cost, lower_bound)| Incumbent { cost, lower_bound });
     let key = prop::option::weighted(0.4, 0..3_u8);
     prop_oneof![
-        6 => (any::<bool>(), 0..2_i32, key, prop::bool::weighted(0.9), 1..4_u32).prop_map(
+        6 => (any::<bool>(), 0..2_i64, key, prop::bool::weighted(0.9), 1..4_u32).prop_map(
             |(owner, priority, key, digest, count)| Step::Submit { owner, priority, key, digest, count }
         ),
         8 => worker.clone().prop_map(|worker| Step::Claim { worker }),
@@ -274,7 +274,7 @@ fn runtime() -> tokio::runtime::Runtime {
 }
 
 async fn small(settings: &JobSettings) -> Arc<dyn Store> {
-    open(&JobSettings { max_queued: MAX_QUEUED, ..settings.clone() }).await.unwrap()
+    open(&JobSettings { max_queued: MAX_QUEUED, ..settings.clone() }, Arc::default()).await.unwrap()
 }
 
 #[test]

@@ -10,5 +10,6 @@ mod haste;
 mod host;
 mod jobs;
 mod knowledge;
+mod metrics;
 mod negotiation;
 mod planning;

@@ -16,7 +16,7 @@ use super::submission::{Shape, check_callbacks, key, new_jobs};
 use crate::api::app::App;
 use crate::api::document::RequestProblems;
 use crate::api::reading::Read;
-use crate::api::{body, log};
+use crate::api::{body, edge};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
 use crate::wire::{
     BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
@@ -128,7 +128,7 @@ async fn take(
     };
     let jobs = app.read(&owner, arrival, body, new).await?;
     if let [job] = &jobs[..] {
-        log::note_scene(job.scene_id.as_deref());
+        edge::note_scene(job.scene_id.as_deref());
     }
     app.store.submit(&jobs, Timestamp::now()).await.map_err(not_accepted)
 }

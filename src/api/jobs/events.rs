@@ -16,6 +16,7 @@ use super::one::{LOOK_AGAIN, find};
 use super::problems::{OneJobProblems, job_id};
 use crate::api::app::App;
 use crate::jobs::{Job, JobId, Owner, Watcher};
+use crate::metrics::{Open, Refusal};
 use crate::wire::{JobBody, Problem, ProblemKind};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
@@ -53,6 +54,7 @@ pub(in crate::api) async fn events(
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
     let slot = Arc::clone(&app.streams).try_acquire_owned().map_err(|_| {
+        app.metrics.refused(Refusal::Limit);
         Problem::new(ProblemKind::Overloaded, "as many clients listen to jobs as may; ask for the job instead")
     })?;
     let listener = Listener::new(app, id, seen, slot);
@@ -70,12 +72,14 @@ struct Listener {
     ready: VecDeque<Message>,
     over: bool,
     _slot: OwnedSemaphorePermit,
+    _open: Open,
 }
 
 impl Listener {
     fn new(app: Arc<App>, id: JobId, seen: usize, slot: OwnedSemaphorePermit) -> Self {
         let watcher = app.store.hints().watch(id);
-        Self { app, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot }
+        let open = app.metrics.stream();
+        Self { app, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
     }
 
     fn messages(self) -> impl Stream<Item = Result<Message, Infallible>> {

@@ -14,7 +14,8 @@ use super::accepted::accepted;
 use super::problems::{OneJobProblems, job_id, no_such_job, unavailable};
 use super::query::Parameters;
 use crate::api::app::App;
-use crate::jobs::{Cancellation, Job, JobId, Owner, Removal, Timestamp};
+use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp};
+use crate::metrics::{Ended, Refusal};
 use crate::wire::{JobBody, Problem, ProblemKind};
 
 /// The longest wait, ms: what proxies and clients bear.
@@ -73,7 +74,10 @@ pub(in crate::api) async fn cancel(State(app): State<Arc<App>>, Path(id): Path<S
         Cancellation::Unknown => Err(no_such_job()),
         Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
         Cancellation::Accepted(job) => {
-            app.runner.end_soon(id);
+            app.runner.cancel(id);
+            if job.state == JobState::Cancelled {
+                app.metrics.job_ended(Ended::Cancelled);
+            }
             Ok(accepted(Some(id), job.body()))
         }
     }
@@ -114,6 +118,7 @@ pub(super) async fn find(app: &App, id: JobId) -> Result<Job, Problem> {
 async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
     let _waiting = app.waiting.try_acquire().map_err(|_| {
+        app.metrics.refused(Refusal::Limit);
         Problem::new(ProblemKind::Overloaded, "as many clients wait for jobs as may; ask without waiting")
     })?;
     let watcher = app.store.hints().watch(id);

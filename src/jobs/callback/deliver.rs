@@ -20,6 +20,7 @@ use crate::jobs::job::{Job, JobId};
 use crate::jobs::settings::JobSettings;
 use crate::jobs::store::{Callback, Delivery, Store};
 use crate::jobs::timestamp::Timestamp;
+use crate::metrics::{CallbackOutcome, Metrics};
 
 /// Tries at a time. Each holds a job with its answer, a few megabytes at the most, and a connection.
 pub(super) const MAX_IN_FLIGHT: usize = 32;
@@ -70,6 +71,7 @@ pub struct CallbackDelivery {
     client: Client,
     silent: SilentReceivers,
     pace: Pace,
+    metrics: Arc<Metrics>,
 }
 
 /// Why a try failed.
@@ -104,6 +106,7 @@ impl CallbackDelivery {
         store: Arc<dyn Store>,
         settings: &JobSettings,
         message: Message,
+        metrics: Arc<Metrics>,
     ) -> Result<Option<Self>, reqwest::Error> {
         let Some(secret) = settings.callback_secret.clone() else { return Ok(None) };
         if settings.callback_allow.is_empty() {
@@ -117,7 +120,7 @@ impl CallbackDelivery {
         let pace = Pace::default();
         let client = client(Arc::clone(&allow), system, roots, pace)?;
         let silent = SilentReceivers::new(pace.a_try);
-        Ok(Some(Self { store, allow, secret, message, client, silent, pace }))
+        Ok(Some(Self { store, allow, secret, message, client, silent, pace, metrics }))
     }
 
     #[cfg(test)]
@@ -131,7 +134,7 @@ impl CallbackDelivery {
         let client = client(Arc::clone(&allow), lookup, roots, pace).unwrap();
         let silent = SilentReceivers::new(pace.a_try);
         let message: Message = |job| format!("{{\"id\":\"{}\"}}", job.id).into_bytes();
-        Self { store, allow, secret: secret.clone(), message, client, silent, pace }
+        Self { store, allow, secret: secret.clone(), message, client, silent, pace, metrics: Arc::default() }
     }
 
     /// Deliver what is due until `shutdown` is done. What is not delivered by then stays in the store.
@@ -187,7 +190,10 @@ impl CallbackDelivery {
     async fn deal_with(&self, callback: Callback) {
         let (id, attempt) = (callback.job.id, callback.attempt);
         let delivery = match self.try_once(&callback).await {
-            Ok(()) => Delivery::Over,
+            Ok(()) => {
+                self.metrics.callback(CallbackOutcome::Delivered);
+                Delivery::Over
+            }
             Err(fault) => self.after(&fault, id, attempt),
         };
         if let Err(error) = self.store.settle_callback(id, attempt, delivery).await {
@@ -200,9 +206,14 @@ impl CallbackDelivery {
         let unwanted = matches!(fault, TryFault::Answer(StatusCode::GONE));
         if unwanted || attempt >= MAX_TRIES {
             tracing::warn!(job = %id, attempt, %fault, "a callback is given up");
+            self.metrics.callback(CallbackOutcome::GivenUp);
             return Delivery::Over;
         }
         tracing::info!(job = %id, attempt, %fault, "a callback was not delivered yet");
+        self.metrics.callback(match fault {
+            TryFault::NotAllowed(_) => CallbackOutcome::Forbidden,
+            _ => CallbackOutcome::Again,
+        });
         let next = Timestamp::now().after(pause(self.pace.first_pause, attempt));
         match fault {
             TryFault::Silent(until) => Delivery::Again(next.max(*until)),

@@ -12,6 +12,7 @@ use super::dialect::Dialect;
 use super::herald::Herald;
 use super::store::SqlStore;
 use crate::jobs::{JobSettings, Store};
+use crate::metrics::Metrics;
 
 /// Readers of a file. They never wait for its writer; a few keep long lists from holding up short looks.
 const SQLITE_READERS: u32 = 4;
@@ -37,17 +38,19 @@ pub struct OpenError(String);
 ///
 /// # Errors
 /// [`OpenError`] where the address can't be understood or nothing can be kept there.
-pub async fn open(settings: &JobSettings) -> Result<Arc<dyn Store>, OpenError> {
+pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<dyn Store>, OpenError> {
     static DRIVERS: Once = Once::new();
     DRIVERS.call_once(install_default_drivers);
     let url = settings.url.as_str();
     let store = if url.starts_with("sqlite:") {
-        sqlite(settings).await.map_err(|error| {
+        sqlite(settings, metrics).await.map_err(|error| {
             OpenError(format!("no jobs can be kept in '{url}': {error}; its folder must be there, and both writable"))
         })?
     } else if url.starts_with("postgres://") || url.starts_with("postgresql://") {
         // The address may hold a password.
-        postgres(settings).await.map_err(|error| OpenError(format!("no jobs can be kept in PostgreSQL: {error}")))?
+        postgres(settings, metrics)
+            .await
+            .map_err(|error| OpenError(format!("no jobs can be kept in PostgreSQL: {error}")))?
     } else {
         return Err(OpenError(
             "not an address like sqlite:PATH, sqlite::memory: or postgres://HOST/DATABASE".to_owned(),
@@ -56,7 +59,7 @@ pub async fn open(settings: &JobSettings) -> Result<Arc<dyn Store>, OpenError> {
     Ok(Arc::new(store))
 }
 
-async fn sqlite(settings: &JobSettings) -> Result<SqlStore, Error> {
+async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
     let memory = settings.url.starts_with("sqlite::memory:");
     let created = if settings.url.contains('?') { "&mode=rwc" } else { "?mode=rwc" };
     let url =
@@ -79,10 +82,10 @@ async fn sqlite(settings: &JobSettings) -> Result<SqlStore, Error> {
         false => on_connect(pool.max_connections(SQLITE_READERS), reading).connect_with(options).await?,
     };
     let herald = Herald::alone();
-    Ok(SqlStore { dialect: Dialect::Sqlite, settings: settings.clone(), writers, readers, herald })
+    Ok(SqlStore { dialect: Dialect::Sqlite, settings: settings.clone(), writers, readers, herald, metrics })
 }
 
-async fn postgres(settings: &JobSettings) -> Result<SqlStore, Error> {
+async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
     let options = settings.url.parse::<AnyConnectOptions>()?.disable_statement_logging();
     let pool = AnyPoolOptions::new().acquire_timeout(POSTGRES_WAIT).max_connections(POSTGRES_CONNECTIONS);
     // Without limits: the tables may take their time, and so may another server that is making them.
@@ -92,7 +95,7 @@ async fn postgres(settings: &JobSettings) -> Result<SqlStore, Error> {
     let pool = on_connect(pool, POSTGRES_LIMITS).connect_with(options).await?;
     let herald = Herald::among_others(&settings.url, &pool).await?;
     let (settings, readers) = (settings.clone(), pool.clone());
-    Ok(SqlStore { dialect: Dialect::Postgres, settings, writers: pool, readers, herald })
+    Ok(SqlStore { dialect: Dialect::Postgres, settings, writers: pool, readers, herald, metrics })
 }
 
 /// Each new connection begins with these statements.

@@ -1,6 +1,8 @@
 //! Every question's way in.
 
 use core::time::Duration;
+use std::sync::Arc;
+use std::time::Instant;
 
 use async_trait::async_trait;
 use sqlx::{AnyPool, Error};
@@ -17,6 +19,8 @@ use crate::jobs::{
     Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp,
 };
 
+use crate::metrics::{Metrics, StoreOutcome};
+
 /// How long the database may take. It is less than a lease: a worker must hear in time that its store is away.
 const PATIENCE: Duration = Duration::from_secs(8);
 
@@ -29,6 +33,7 @@ pub(super) struct SqlStore {
     /// For what only looks.
     pub(super) readers: AnyPool,
     pub(super) herald: Herald,
+    pub(super) metrics: Arc<Metrics>,
 }
 
 /// One write: all that is asked of `$change` happens, or nothing does.
@@ -51,10 +56,14 @@ impl SqlStore {
         operation: &'static str,
         work: impl Future<Output = Result<T, Error>>,
     ) -> Result<T, StoreError> {
-        match timeout(PATIENCE, work).await {
+        let asked = Instant::now();
+        let answer = match timeout(PATIENCE, work).await {
             Ok(answer) => answer.map_err(|error| StoreError(format!("{operation}: {error}"))),
             Err(_) => Err(StoreError(format!("{operation}: no answer within {} s", PATIENCE.as_secs()))),
-        }
+        };
+        let outcome = if answer.is_ok() { StoreOutcome::Done } else { StoreOutcome::Failed };
+        self.metrics.store(operation, outcome, asked.elapsed());
+        answer
     }
 }
 

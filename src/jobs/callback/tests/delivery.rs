@@ -159,7 +159,7 @@ async fn nobody_is_told_without_a_list_and_a_secret() {
     let unsigned = JobSettings { callback_secret: None, ..on.clone() };
     for (settings, told) in [(on, true), (unlisted, false), (unsigned, false)] {
         let store = Arc::new(Callbacks::default());
-        let delivery = CallbackDelivery::new(store as _, &settings, |_| Vec::new()).unwrap();
+        let delivery = CallbackDelivery::new(store as _, &settings, |_| Vec::new(), Arc::default()).unwrap();
         assert_eq!(delivery.is_some(), told, "{settings:?}");
     }
 }

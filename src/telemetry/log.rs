@@ -23,10 +23,7 @@ pub fn filter(text: &str) -> Result<EnvFilter, String> {
 }
 
 /// Begin to log.
-///
-/// # Errors
-/// A filter that is none, or logging that has begun already.
-pub fn init(log: &str, format: LogFormat) -> Result<(), String> {
+pub(super) fn init(log: &str, format: LogFormat) -> Result<(), String> {
     let lines = tracing_subscriber::fmt().with_env_filter(filter(log)?).with_writer(io::stderr);
     let begun = match format {
         LogFormat::Text => lines.with_ansi(false).try_init(),
