@@ -27,7 +27,8 @@ pub(crate) enum End {
 
 /// How long the ends took, ascending; those that came by themselves first are left out.
 pub(crate) fn ends(runtime: &Runtime, request: &Arc<PlanRequest>, end: End) -> Vec<Duration> {
-    let pool = Pool::new(1, 0).expect("a thread");
+    // One may still be on its way out when the next comes.
+    let pool = Pool::new(1, 1).expect("a thread");
     let moments = MOMENTS.iter().flat_map(|moment| [moment; ROUNDS]);
     let mut taken: Vec<Duration> = moments.filter_map(|&moment| once(runtime, &pool, request, end, moment)).collect();
     taken.sort_unstable();
@@ -37,7 +38,7 @@ pub(crate) fn ends(runtime: &Runtime, request: &Arc<PlanRequest>, end: End) -> V
 fn once(runtime: &Runtime, pool: &Pool, request: &Arc<PlanRequest>, end: End, moment: Duration) -> Option<Duration> {
     let own = Arc::clone(request);
     let plan = move |budget: &singulate::budget::Budget<'_>| Engine::default().answer(&own, budget).is_ok();
-    let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("an idle thread");
+    let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("room");
     thread::sleep(moment);
     if pool.idle() == 1 {
         return None;

@@ -42,7 +42,7 @@ impl Default for ServerSettings {
             queue: 64,
             // 10,000 objects, the most of a scene, with ids of 100 characters each.
             max_body_bytes: 4_000_000,
-            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 20 kB and a file
+            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 12 kB and a file
             // descriptor.
             connections: 12_000,
             // Time for two packets to be lost and sent again; a client that takes longer is broken, or means harm.
