@@ -110,3 +110,15 @@ pub(super) async fn not_found() -> Problem {
 pub(super) async fn method_not_allowed() -> Problem {
     Problem::new(ProblemKind::MethodNotAllowed, "see the header Allow")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_is_refused_comes_again_after_whole_seconds_neither_at_once_nor_never() {
+        let seconds = |millis| seconds(&refused(Refused::TooLate { retry_after: Duration::from_millis(millis) }));
+        assert_eq!([0, 10, 1000, 1001, 59_001, 1_000_000].map(seconds), [1, 1, 1, 2, 60, 60]);
+        assert_eq!(super::seconds(&refused(Refused::Full)), 1);
+    }
+}

@@ -43,7 +43,7 @@ pub struct JobSceneBody {
     /// How to plan. The time limit counts from when a worker begins.
     pub settings: Option<SettingsBody>,
     /// Who is told of the job's end, by a POST of the job; one of the hosts that the operator allows.
-    #[schema(max_length = 2000, example = json!(null))]
+    #[schema(max_length = 2000, example = "https://erp.example.com/jobs")]
     pub callback_url: Option<String>,
     /// Jobs of a greater priority go first. 0 where absent.
     #[schema(minimum = -100, maximum = 100, example = 0)]
@@ -121,7 +121,7 @@ pub struct JobBody {
     #[schema(example = 1)]
     pub attempts: u32,
     /// How many jobs will be taken until it is, itself included; null unless it is queued.
-    #[schema(required = true, example = json!(null))]
+    #[schema(required = true, example = 3)]
     pub queue_position: Option<u64>,
     /// The digest of the scene without its name and settings, however it was written; hexadecimal.
     #[schema(example = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08")]
@@ -153,6 +153,6 @@ pub struct JobListBody {
     /// The latest first, without their results.
     pub jobs: Vec<JobBody>,
     /// What to ask for the rest with, as `cursor`; null where there is no more.
-    #[schema(required = true, example = json!(null))]
+    #[schema(required = true, example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
     pub next_cursor: Option<String>,
 }

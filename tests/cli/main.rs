@@ -4,6 +4,8 @@
 
 mod commands;
 mod experiments;
+#[path = "../service/hard.rs"]
+mod hard;
 mod readme;
 mod scenes;
 mod service;

@@ -65,7 +65,7 @@ fn every_command_is_listed() {
 fn every_setting_is_listed_with_its_default() {
     for setting in SETTINGS {
         let default = match setting.name {
-            "threads" => "one per core".to_owned(),
+            "threads" | "job_threads" => "one per core".to_owned(),
             _ => format!("`{}`", (setting.get)(&Config::default())),
         };
         let (flag, variable, key) = (setting.flag(), setting.variable(), setting.name);

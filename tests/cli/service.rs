@@ -1,10 +1,14 @@
 //! The service as a process.
 
-use std::io::{BufRead, BufReader};
-use std::net::TcpListener;
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::io::{BufRead, BufReader, Write};
+use std::net::{TcpListener, TcpStream};
+use std::process::{Child, ChildStdout, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use rustix::process::{Pid, Signal, kill_process};
+
+use crate::hard::hard;
+use crate::scenes::ALONE;
 use crate::{answered, failed, run, singulate};
 
 /// A service on a free port; it ends with the test.
@@ -23,13 +27,44 @@ impl Service {
     fn with(variables: &[(&str, &str)]) -> Self {
         let mut command = singulate(&[]);
         command.env("SINGULATE_LISTEN", "127.0.0.1:0").env("SINGULATE_LOG", "warn");
-        command.envs(variables.iter().copied());
+        command.env("SINGULATE_JOBS_URL", "sqlite::memory:").envs(variables.iter().copied());
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
         out.read_line(&mut line).unwrap();
         let url = line.split_whitespace().find(|word| word.starts_with("http://")).unwrap().to_owned();
         Self { child, out, url }
+    }
+
+    /// A connection on which the text has been sent.
+    fn raw(&self, text: &str) -> TcpStream {
+        let mut stream = TcpStream::connect(self.url.trim_start_matches("http://")).unwrap();
+        stream.write_all(text.as_bytes()).unwrap();
+        stream
+    }
+
+    /// The status line of the answer to a request without a body.
+    fn status(&self, request: &str) -> String {
+        let mut line = String::new();
+        let stream = self.raw(&format!("{request} HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n"));
+        BufReader::new(stream).read_line(&mut line).unwrap();
+        line
+    }
+
+    fn signal(&self, signal: Signal) {
+        kill_process(Pid::from_child(&self.child), signal).unwrap();
+    }
+
+    /// The status with which the process ends, long before any time limit would end it.
+    fn ended(&mut self) -> ExitStatus {
+        let started = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status;
+            }
+            assert!(started.elapsed() < Duration::from_secs(60), "it does not end");
+            std::thread::sleep(Duration::from_millis(1));
+        }
     }
 }
 
@@ -88,18 +123,58 @@ fn a_service_ends_though_its_collector_never_answers() {
     let url = format!("http://{}", collector.local_addr().unwrap());
     let mut service = Service::with(&[("SINGULATE_OTLP_ENDPOINT", &url)]);
     answered(run(&["healthcheck", "--url", &format!("{}/readyz", service.url)]));
-    let id = service.child.id().to_string();
-    assert!(Command::new("kill").arg(id).status().unwrap().success());
-    let started = Instant::now();
-    let status = loop {
-        if let Some(status) = service.child.try_wait().unwrap() {
-            break status;
-        }
-        assert!(started.elapsed() < Duration::from_secs(60), "it waits for its collector");
-        std::thread::sleep(Duration::from_millis(5));
-    };
-    assert_eq!(status.code(), Some(0));
+    service.signal(Signal::TERM);
+    assert_eq!(service.ended().code(), Some(0));
     // It did try.
     collector.set_nonblocking(true).unwrap();
     collector.accept().unwrap();
+}
+
+#[test]
+fn a_service_that_rests_ends_at_once_when_it_is_asked_to() {
+    for signal in [Signal::TERM, Signal::INT] {
+        // Ten minutes to drain, which nothing needs.
+        let mut service = Service::with(&[("SINGULATE_DRAIN_MS", "600000")]);
+        assert!(service.status("GET /livez").contains(" 200 "));
+        let silent = service.raw("");
+        service.signal(signal);
+        assert_eq!(service.ended().code(), Some(0));
+        drop(silent);
+    }
+}
+
+#[test]
+fn a_service_that_drains_ends_at_once_when_it_is_asked_again() {
+    let variables = [("SINGULATE_DRAIN_MS", "600000"), ("SINGULATE_THREADS", "1"), ("SINGULATE_QUEUE", "0")];
+    for (signal, status) in [(Signal::TERM, 143), (Signal::INT, 130)] {
+        let mut service = Service::with(&variables);
+        let body = hard(60_000).to_string();
+        let head = "POST /v1/survey HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length";
+        let surveyed = service.raw(&format!("{head}: {}\r\n\r\n{body}", body.len()));
+        let started = Instant::now();
+        let patient = |started: Instant| assert!(started.elapsed() < Duration::from_secs(60), "waited in vain");
+        // The only thread is busy once another plan is refused. One that comes first would have the survey refused.
+        std::thread::sleep(Duration::from_millis(300));
+        while !plan_status(&service).contains(" 503 ") {
+            patient(started);
+        }
+        service.signal(signal);
+        while !service.status("GET /readyz").contains(" 503 ") {
+            patient(started);
+        }
+        assert!(service.status("GET /livez").contains(" 200 "));
+        service.signal(signal);
+        assert_eq!(service.ended().code(), Some(status));
+        drop(surveyed);
+    }
+}
+
+/// The status line of the answer to a small plan.
+fn plan_status(service: &Service) -> String {
+    let body = ALONE;
+    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\nconnection: close\r\ncontent-type: application/json";
+    let mut line = String::new();
+    let stream = service.raw(&format!("{head}\r\ncontent-length: {}\r\n\r\n{body}", body.len()));
+    BufReader::new(stream).read_line(&mut line).unwrap();
+    line
 }

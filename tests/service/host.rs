@@ -14,7 +14,7 @@ use singulate::jobs::{client_builder, trusted_roots};
 use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate::scene::Scene;
 use tokio::net::TcpListener;
-use tokio::sync::oneshot;
+use tokio::sync::watch;
 use tokio::task::JoinHandle;
 use tokio::time::{sleep, timeout};
 
@@ -24,7 +24,7 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 pub(crate) struct Host {
     pub(crate) address: SocketAddr,
     pub(crate) client: reqwest::Client,
-    stop: oneshot::Sender<()>,
+    stop: watch::Sender<()>,
     task: JoinHandle<std::io::Result<()>>,
 }
 
@@ -40,10 +40,10 @@ impl Host {
         }
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = listener.local_addr().unwrap();
-        let (stop, stopped) = oneshot::channel();
-        let task = tokio::spawn(run_with(listener, settings, engine, async {
+        let (stop, mut stopped) = watch::channel(());
+        let task = tokio::spawn(run_with(listener, settings, engine, async move {
             // A host that is dropped stops too.
-            let _ = stopped.await;
+            let _ = stopped.changed().await;
         }));
         let client = client_builder(trusted_roots()).build().unwrap();
         Self { address, client, stop, task }
@@ -76,10 +76,19 @@ impl Host {
         stream
     }
 
-    /// Tell the server to stop; the handle ends when it has.
-    pub(crate) fn stop(self) -> JoinHandle<std::io::Result<()>> {
+    /// A request on a connection of its own, and all that comes back until the server closes it.
+    pub(crate) async fn ask(&self, text: &str) -> String {
+        read_to_end(self.raw(text)).await
+    }
+
+    /// Tell the server to stop.
+    pub(crate) fn ask_to_stop(&self) {
         self.stop.send(()).unwrap();
-        self.task
+    }
+
+    /// Done once the server that was told to stop has.
+    pub(crate) async fn stopped(self) {
+        timeout(PATIENCE, self.task).await.expect("it ends").unwrap().unwrap();
     }
 }
 

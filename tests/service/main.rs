@@ -5,9 +5,12 @@
 mod bodies;
 mod connections;
 mod document;
+mod draining;
 mod golden;
+mod hard;
 mod haste;
 mod host;
+mod hostile;
 mod jobs;
 mod knowledge;
 mod metrics;

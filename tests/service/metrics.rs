@@ -196,7 +196,7 @@ async fn nothing_that_clients_make_up_becomes_a_label() {
     let text = host.get("/metrics").await.text;
     let families = parse(&text);
     for name in ["one", "two", "three", "ONE", "plate-1", "anonymous"] {
-        assert!(!text.contains(&format!("{name}\"")) && !text.contains(&format!("/{name}")), "{name} in {text}");
+        assert!(!text.contains(&format!("\"{name}\"")) && !text.contains(&format!("/{name}")), "{name} in {text}");
     }
     let requests = &families["singulate_http_request_seconds"].series;
     let series: Vec<&String> = requests.keys().filter(|key| key.starts_with("_count")).collect();

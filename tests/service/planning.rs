@@ -11,17 +11,17 @@ use singulate::plan::check::Report;
 use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate::scene::Scene;
 
-use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};
+use crate::host::{Host, PATIENCE, raw_plan, scene, wait_until};
 
 const ONE_THREAD: fn(usize) -> ServerSettings =
     |queue| ServerSettings { threads: 1, queue, ..ServerSettings::default() };
 
-fn timed_out() -> Answer {
+pub(crate) fn timed_out() -> Answer {
     Answer { verdict: Verdict::TimedOut(Unplanned::default()), warnings: Vec::new(), statistics: Statistics::default() }
 }
 
 /// Runs until the budget ends, and counts itself in `running` meanwhile.
-fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Result<Answer, PlanError> {
     running.fetch_add(1, Ordering::SeqCst);
     while budget.check().is_ok() {
         std::thread::sleep(Duration::from_millis(1));
@@ -39,6 +39,7 @@ macro_rules! endless {
         Engine { plan, ..Engine::default() }
     }};
 }
+pub(crate) use endless;
 
 #[tokio::test]
 async fn a_full_service_says_when_to_come_again() {
@@ -119,15 +120,20 @@ async fn an_answer_that_fails_its_check_is_withheld() {
 }
 
 #[tokio::test]
-async fn a_service_that_stops_finishes_what_runs() {
+async fn what_would_come_too_late_is_refused_at_once_and_told_when_to_come_again() {
     static RUNNING: AtomicUsize = AtomicUsize::new(0);
-    let host = Host::with(ONE_THREAD(1), endless!(RUNNING)).await;
-    let address = host.address;
-    let running = host.raw(&raw_plan(&scene(500)));
+    let host = Host::with(ONE_THREAD(4), endless!(RUNNING)).await;
+    // Now it is known that a computation takes more than a second.
+    assert_eq!(host.post("/v1/plans", &scene(1200)).await.status, 200);
+    let busy = host.raw(&raw_plan(&scene(60_000)));
     wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
-    let stopped = host.stop();
-    wait_until(|| std::net::TcpStream::connect(address).is_err()).await;
-    let text = read_to_end(running).await;
-    assert!(text.starts_with("HTTP/1.1 200 ") && text.contains("timed_out"), "{text}");
-    tokio::time::timeout(PATIENCE, stopped).await.unwrap().unwrap().unwrap();
+    let reply = host.post("/v1/plans", &scene(500)).await;
+    reply.is_problem(503, "overloaded");
+    let seconds: u64 = reply.header("retry-after").parse().unwrap();
+    assert!((2..=60).contains(&seconds), "{seconds}");
+    // Who has more time waits for its turn, and has it once the thread is free.
+    let patient = host.raw(&raw_plan(&scene(60_000)));
+    drop(busy);
+    wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
+    drop(patient);
 }

@@ -60,7 +60,7 @@ async fn a_stream_ends_with_an_event_when_the_service_does() {
     let waiter = host.client.get(host.url(&format!("{}?wait_ms=60000", path(&waiting)))).send();
     let waiter = tokio::spawn(waiter);
     host.post(&format!("{}/cancel", path(&holder)), &Value::Null).await;
-    let stopped = host.stop();
+    host.ask_to_stop();
     let text = stream.text().await.unwrap();
     let last = text.split("\n\n").filter(|block| block.contains("event: ")).last().unwrap();
     assert!(last.contains("event: draining"), "{text}");
@@ -68,7 +68,7 @@ async fn a_stream_ends_with_an_event_when_the_service_does() {
     if let Ok(reply) = waiter.await.unwrap() {
         assert_eq!(reply.status(), 200);
     }
-    tokio::time::timeout(PATIENCE, stopped).await.unwrap().unwrap().unwrap();
+    host.stopped().await;
 }
 
 #[tokio::test]
