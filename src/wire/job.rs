@@ -144,6 +144,13 @@ pub struct JobBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobsBody {
     /// In the order of the scenes.
+    #[schema(example = json!([{
+        "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",
+        "created_at": "2026-01-05T09:30:00.000Z", "started_at": null, "finished_at": null,
+        "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 3,
+        "scene_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08", "version": "0.1.0",
+        "incumbent": null, "result": null, "problem": null
+    }]))]
     pub jobs: Vec<JobBody>,
 }
 
@@ -151,6 +158,13 @@ pub struct JobsBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobListBody {
     /// The latest first, without their results.
+    #[schema(example = json!([{
+        "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",
+        "created_at": "2026-01-05T09:30:00.000Z", "started_at": null, "finished_at": null,
+        "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 3,
+        "scene_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08", "version": "0.1.0",
+        "incumbent": null, "result": null, "problem": null
+    }]))]
     pub jobs: Vec<JobBody>,
     /// What to ask for the rest with, as `cursor`; null where there is no more.
     #[schema(required = true, example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
