@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use reqwest::{Error, RequestBuilder};
 use serde_json::Value;
+use singulate::jobs::{client_builder, trusted_roots};
 use tokio::time::{Instant, sleep};
 
 use crate::events::{Message, Messages};
