@@ -10,7 +10,7 @@ use tokio::time::{Instant, sleep};
 
 use super::dialect::Dialect;
 use super::herald::Herald;
-use super::store::SqlStore;
+use super::store::{SharedStore, SqlStore};
 use crate::jobs::{JobSettings, Store};
 use crate::metrics::Metrics;
 
@@ -56,7 +56,7 @@ pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<d
             "not an address like sqlite:PATH, sqlite::memory: or postgres://HOST/DATABASE".to_owned(),
         ));
     };
-    Ok(Arc::new(store))
+    Ok(Arc::new(SharedStore(Arc::new(store))))
 }
 
 async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {

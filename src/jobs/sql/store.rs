@@ -36,17 +36,23 @@ pub(super) struct SqlStore {
     pub(super) metrics: Arc<Metrics>,
 }
 
-/// One write: all that is asked of `$change` happens, or nothing does.
+/// The store as everybody has it, and the tasks that write for them.
+pub(super) struct SharedStore(pub(super) Arc<SqlStore>);
+
+/// One write: all that is asked of `$change` happens, or nothing does. It runs in a task of its own, which nobody drops:
+/// a transaction that is given up while it begins would go back to the pool with its connection, still open.
 macro_rules! change {
-    ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
-        $store.ask($operation, async {
-            let mut change = Change::begin($store).await?;
+    ($store:expr, $operation:literal, |$change:ident| $work:expr) => {{
+        let store = Arc::clone(&$store.0);
+        let task = async move {
+            let mut change = Change::begin(&store).await?;
             let $change = &mut change;
             let answer = $work.await?;
             change.commit().await?;
             Ok(answer)
-        })
-    };
+        };
+        $store.0.ask($operation, async { tokio::spawn(task).await.unwrap_or(Err(Error::WorkerCrashed)) })
+    }};
 }
 
 impl SqlStore {
@@ -68,9 +74,10 @@ impl SqlStore {
 }
 
 #[async_trait]
-impl Store for SqlStore {
+impl Store for SharedStore {
     async fn submit(&self, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, SubmitError> {
-        match change!(self, "submit", |change| submit(change, jobs, now)).await? {
+        let jobs = jobs.to_vec();
+        match change!(self, "submit", |change| submit(change, &jobs, now)).await? {
             Submitted::Accepted(jobs) => Ok(jobs),
             Submitted::Full => Err(SubmitError::Full),
             Submitted::KeyReused => Err(SubmitError::KeyReused),
@@ -78,19 +85,21 @@ impl Store for SqlStore {
     }
 
     async fn get(&self, owner: &Owner, id: JobId) -> Result<Option<Job>, StoreError> {
-        self.ask("get", async { row::find(&mut *self.readers.acquire().await?, Some(owner), id).await }).await
+        self.0.ask("get", async { row::find(&mut *self.0.readers.acquire().await?, Some(owner), id).await }).await
     }
 
     async fn list(&self, owner: &Owner, page: Page) -> Result<Vec<Job>, StoreError> {
-        self.ask("list", async { row::list(&mut *self.readers.acquire().await?, owner, page).await }).await
+        self.0.ask("list", async { row::list(&mut *self.0.readers.acquire().await?, owner, page).await }).await
     }
 
     async fn cancel(&self, owner: &Owner, id: JobId, now: Timestamp) -> Result<Cancellation, StoreError> {
-        change!(self, "cancel", |change| owner::cancel(change, owner, id, now)).await
+        let owner = owner.clone();
+        change!(self, "cancel", |change| owner::cancel(change, &owner, id, now)).await
     }
 
     async fn forget(&self, owner: &Owner, id: JobId) -> Result<Removal, StoreError> {
-        change!(self, "forget", |change| owner::forget(change, owner, id)).await
+        let owner = owner.clone();
+        change!(self, "forget", |change| owner::forget(change, &owner, id)).await
     }
 
     async fn claim(&self, now: Timestamp) -> Result<Option<Claimed>, StoreError> {
@@ -106,7 +115,8 @@ impl Store for SqlStore {
     }
 
     async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError> {
-        change!(self, "finish", |change| worker::finish(change, claim, end, now)).await
+        let end = end.clone();
+        change!(self, "finish", |change| worker::finish(change, claim, &end, now)).await
     }
 
     async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError> {
@@ -134,14 +144,14 @@ impl Store for SqlStore {
     }
 
     async fn counts(&self) -> Result<Counts, StoreError> {
-        self.ask("counts", async { sweep::counts(&mut *self.readers.acquire().await?).await }).await
+        self.0.ask("counts", async { sweep::counts(&mut *self.0.readers.acquire().await?).await }).await
     }
 
     async fn ping(&self) -> Result<(), StoreError> {
-        self.ask("ping", async { sqlx::query("SELECT 1").execute(&self.readers).await.map(drop) }).await
+        self.0.ask("ping", async { sqlx::query("SELECT 1").execute(&self.0.readers).await.map(drop) }).await
     }
 
     fn hints(&self) -> &Hints {
-        self.herald.hints()
+        self.0.herald.hints()
     }
 }
