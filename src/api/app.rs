@@ -15,7 +15,7 @@ use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
 use crate::jobs::{self, Owner, Runner, Store};
-use crate::wire::{PlanRequest, Problem, RequestLimits};
+use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
 use crate::workers::{Draining, Engine, Outcome, Pool};
 
 /// The service's state.
@@ -25,6 +25,8 @@ pub struct App {
     pub(super) pool: Pool,
     pub(super) store: Arc<dyn Store>,
     pub(super) runner: Arc<Runner>,
+    /// Room for requests that hand in jobs.
+    pub(super) submitting: Semaphore,
     /// Room for clients that wait for a job.
     pub(super) waiting: Semaphore,
     /// Room for streams of events.
@@ -34,6 +36,10 @@ pub struct App {
 
 /// How long a body may wait to be read where nothing else limits its time.
 const READING_LIMIT: Duration = Duration::from_secs(5);
+
+/// Requests that may hand in jobs at a time. Their writes stand in one line with those of the workers, a millisecond or two
+/// each: behind many more of them jobs would begin and end late.
+const MAX_SUBMITTING: usize = 32;
 
 /// The body of a response.
 pub(super) type Served = Result<Vec<u8>, Problem>;
@@ -48,8 +54,8 @@ impl App {
         let pool = Pool::new(settings.threads, settings.queue)?;
         let runner = Arc::new(Runner::new(Arc::clone(&store), &settings.jobs, engine, settings.limits)?);
         let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
-        let draining = Draining::default();
-        Ok(Self { settings, engine, pool, store, runner, waiting, streams: Arc::new(streams), draining })
+        let (submitting, draining) = (Semaphore::new(MAX_SUBMITTING), Draining::default());
+        Ok(Self { settings, engine, pool, store, runner, submitting, waiting, streams: Arc::new(streams), draining })
     }
 
     /// From now on the service says that it is not ready, and begins nothing new.
@@ -98,6 +104,16 @@ impl App {
         }
     }
 
+    /// Whoever would be refused anyway is refused before the body is read, which costs ten times a glance: under overload
+    /// most are, and their reading would take the cores from those that are not.
+    fn refuse_unread(&self, arrival: Instant, body: &[u8]) -> Result<(), Problem> {
+        if self.pool.idle() > 0 {
+            return Ok(());
+        }
+        let time_limit = Glance::at(body, &self.settings.limits).time_limit;
+        self.pool.room(Owner::anonymous().as_str(), time_limit.saturating_sub(arrival.elapsed())).map_err(refused)
+    }
+
     /// Read the body and run `work` on the planning pool; where the time limit comes first, `too_late` says what is left
     /// to say. The limit counts from `arrival`.
     pub(super) async fn answer<R: AsRef<PlanRequest> + Send + Sync + 'static>(
@@ -108,6 +124,7 @@ impl App {
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
         self.takes_work()?;
+        self.refuse_unread(arrival, &body)?;
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
         log::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);

@@ -19,7 +19,8 @@ use crate::api::reading::Read;
 use crate::api::{body, log};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
 use crate::wire::{
-    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
+    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, ProblemKind, RequestLimits,
+    read_batch, read_job,
 };
 
 /// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
@@ -115,6 +116,9 @@ async fn take(app: &Arc<App>, request: Request<Body>, read: Read<Vec<JobRequest>
     app.takes_work()?;
     let key = key(request.headers())?;
     let body = body::receive(request, &app.settings).await?;
+    let _submitting = app.submitting.try_acquire().map_err(|_| {
+        Problem::new(ProblemKind::Overloaded, "as many requests hand in jobs as may; nothing of this one was kept")
+    })?;
     let owner = Owner::anonymous();
     let own = owner.clone();
     let new = move |body: &[u8], limits: &RequestLimits| Ok(new_jobs(read(body, limits)?, body, &own, key.as_deref()));
@@ -123,4 +127,32 @@ async fn take(app: &Arc<App>, request: Request<Body>, read: Read<Vec<JobRequest>
         log::note_scene(job.scene_id.as_deref());
     }
     app.store.submit(&jobs, Timestamp::now()).await.map_err(not_accepted)
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::http::{StatusCode, header};
+    use tower::ServiceExt;
+
+    use super::*;
+    use crate::api::{Engine, ServerSettings, router};
+    use crate::jobs::JobSettings;
+
+    #[tokio::test]
+    async fn only_so_many_requests_hand_in_jobs_at_a_time() {
+        let jobs = JobSettings { url: "sqlite::memory:".to_owned(), ..JobSettings::default() };
+        let settings = ServerSettings { jobs, ..ServerSettings::default() };
+        let app = Arc::new(App::start(settings, Engine::default()).await.unwrap());
+        let ask = async || {
+            let request = Request::post("/v1/jobs").header(header::CONTENT_TYPE, "application/json");
+            router(Arc::clone(&app)).oneshot(request.body(Body::from("{}")).unwrap()).await.unwrap()
+        };
+        let others = app.submitting.available_permits().try_into().unwrap();
+        let others = app.submitting.acquire_many(others).await.unwrap();
+        let refused = ask().await;
+        assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
+        assert!(refused.headers().contains_key(header::RETRY_AFTER));
+        drop(others);
+        assert_eq!(ask().await.status(), StatusCode::UNPROCESSABLE_ENTITY);
+    }
 }
