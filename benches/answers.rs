@@ -2,16 +2,19 @@
 //!
 //! Fails where the median over the scenes is not below 1 ms.
 
+#[path = "cases/paper.rs"]
+mod paper;
+
 use core::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use singulate::budget::Budget;
-use singulate::experiments::{Recipe, generate};
-use singulate::knowledge::{complete, swept_finger_options};
 use singulate::plan::{Settings, plan};
-use singulate::scene::{ObjectIndex, Scene, SceneLimits};
+use singulate::scene::Scene;
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_scene};
+
+use paper::paper_50;
 
 const SCENES: u64 = 40;
 const MAX_MEDIAN: Duration = Duration::from_millis(1);
@@ -61,17 +64,6 @@ fn answer(body: &[u8]) -> Vec<u8> {
     let request = read_scene(body, &RequestLimits::default()).expect("sound");
     let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).expect("checked");
     serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON")
-}
-
-/// The paper's Case II with 50 objects: 1.4 × 1.4 m, the target the object with the largest least option.
-fn paper_50(seed: u64) -> Scene {
-    let recipe = Recipe { objects: 50, table: (1.4, 1.4), ..Recipe::default() };
-    let draft = generate(&recipe, seed).expect("fits");
-    let (scene, _) = Scene::new(draft, &SceneLimits::default()).expect("a sound scene");
-    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("small");
-    let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();
-    let hardest = scene.indices().max_by_key(least).expect("not empty");
-    scene.with_target(hardest).expect("nothing is fixed")
 }
 
 criterion_group!(benches, paper_scenes);

@@ -13,13 +13,15 @@ mod cases;
 mod ends;
 #[path = "cases/hard.rs"]
 mod hard;
+#[path = "cases/timer.rs"]
+mod timer;
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Barrier};
+use std::sync::Arc;
+use std::sync::Barrier;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -31,11 +33,11 @@ use singulate::wire::{RequestLimits, SceneBody, read_scene};
 use tokio::net::TcpListener;
 
 use ends::End;
+use timer::{Timer, p99};
 
 const GRACE: Duration = Duration::from_millis(50);
 /// For a computation that is to end before its time.
 const END_GRACE: Duration = Duration::from_millis(20);
-const TICK: Duration = Duration::from_millis(10);
 const LIMITS_MS: [u64; 5] = [1, 10, 50, 200, 1000];
 const CLIENTS: [usize; 2] = [1, 8];
 /// Each row repeats its requests for so long, and no more often than that.
@@ -104,11 +106,6 @@ fn early_ends() -> Duration {
 
 fn ms(duration: Duration) -> f64 {
     duration.as_secs_f64() * 1e3
-}
-
-/// The value that 99 of 100 don't exceed.
-fn p99(sorted: &[Duration]) -> Duration {
-    sorted[(sorted.len() * 99).div_ceil(100).saturating_sub(1)]
 }
 
 /// A server that runs until this process ends.
@@ -206,35 +203,4 @@ fn ask(connection: &mut BufReader<TcpStream>, request: &[u8]) -> (Duration, Stri
     let body: Value = serde_json::from_slice(&body).expect("JSON");
     let word = body["verdict"].as_str().map_or_else(|| format!("status {}", body["status"]), str::to_owned);
     (taken, word)
-}
-
-/// Sleeps for a tick at a time and notes how much longer each sleep was.
-struct Timer {
-    stop: Arc<AtomicBool>,
-    thread: thread::JoinHandle<Vec<Duration>>,
-}
-
-impl Timer {
-    fn start() -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stop);
-        let thread = thread::spawn(move || {
-            let mut lateness = Vec::new();
-            while !stopped.load(Ordering::Relaxed) {
-                let started = Instant::now();
-                thread::sleep(TICK);
-                lateness.push(started.elapsed().saturating_sub(TICK));
-            }
-            lateness
-        });
-        Self { stop, thread }
-    }
-
-    /// The 99th percentile of the lateness.
-    fn stop(self) -> Duration {
-        self.stop.store(true, Ordering::Relaxed);
-        let mut lateness = self.thread.join().expect("it counts only");
-        lateness.sort_unstable();
-        p99(&lateness)
-    }
 }

@@ -18,8 +18,8 @@ use crate::budget::Budget;
 use crate::jobs::{self, Owner, Runner, Store};
 use crate::metrics::{Metrics, Queue, Refusal};
 use crate::traces::Context;
-use crate::wire::{PlanRequest, Problem, RequestLimits};
-use crate::workers::{Draining, Engine, Outcome, Pending, Pool};
+use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
+use crate::workers::{Draining, Engine, Outcome, Pending, Pool, Refused};
 
 /// The service's state.
 pub struct App {
@@ -29,6 +29,8 @@ pub struct App {
     pub(super) store: Arc<dyn Store>,
     pub(super) runner: Arc<Runner>,
     pub(super) metrics: Arc<Metrics>,
+    /// Room for requests that hand in jobs.
+    pub(super) submitting: Semaphore,
     /// Room for clients that wait for a job.
     pub(super) waiting: Semaphore,
     /// Room for streams of events.
@@ -38,6 +40,10 @@ pub struct App {
 
 /// How long a body may wait to be read where nothing else limits its time.
 const READING_LIMIT: Duration = Duration::from_secs(5);
+
+/// Requests that may hand in jobs at a time. Their writes stand in one line with those of the workers, a millisecond or two
+/// each: behind many more of them jobs would begin and end late.
+const MAX_SUBMITTING: usize = 32;
 
 /// The body of a response.
 pub(super) type Served = Result<Vec<u8>, Problem>;
@@ -60,6 +66,7 @@ impl App {
             store,
             runner: Arc::new(runner),
             metrics,
+            submitting: Semaphore::new(MAX_SUBMITTING),
             waiting,
             streams: Arc::new(streams),
             draining: Draining::default(),
@@ -126,10 +133,23 @@ impl App {
             let _context = context.attach();
             span.in_scope(|| work(budget))
         };
-        self.pool.submit(owner.as_str(), arrival, time_limit, work).map_err(|error| {
-            self.metrics.refused(refusal(error));
-            refused(error)
-        })
+        self.pool.submit(owner.as_str(), arrival, time_limit, work).map_err(|error| self.turn_away(error))
+    }
+
+    /// Whoever would be refused anyway is refused before the body is read, which costs ten times a glance: under overload
+    /// most are, and their reading would take the cores from those that are not.
+    fn refuse_unread(&self, arrival: Instant, body: &[u8]) -> Result<(), Problem> {
+        if self.pool.idle() > 0 {
+            return Ok(());
+        }
+        let time_limit = Glance::at(body, &self.settings.limits).time_limit;
+        let left = time_limit.saturating_sub(arrival.elapsed());
+        self.pool.room(Owner::anonymous().as_str(), left).map_err(|error| self.turn_away(error))
+    }
+
+    fn turn_away(&self, error: Refused) -> Problem {
+        self.metrics.refused(refusal(error));
+        refused(error)
     }
 
     /// Read the body and run `work` on the planning pool; where the time limit comes first, `too_late` says what is left
@@ -142,6 +162,7 @@ impl App {
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
         self.takes_work()?;
+        self.refuse_unread(arrival, &body)?;
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
         edge::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);

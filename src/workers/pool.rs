@@ -113,6 +113,15 @@ impl Pool {
         Ok(Pending::new(ticket, reply))
     }
 
+    /// Would a computation be taken that came now and may still take `left`? Answered at once, and cheaper than the
+    /// computation is made.
+    ///
+    /// # Errors
+    /// [`Refused`] if there is no room, or no time.
+    pub fn room(&self, owner: &str, left: Duration) -> Result<(), Refused> {
+        self.shared.room(&mut self.shared.lock(), owner, left)
+    }
+
     /// True if every thread lives and computations are taken.
     pub fn ready(&self) -> bool {
         self.shared.lock().open && lock(&self.threads).iter().all(|thread| !thread.is_finished())
@@ -165,6 +174,14 @@ impl Shared {
 
     fn enqueue(&self, owner: &str, newcomer: Waiting) -> Result<(), Refused> {
         let mut state = self.lock();
+        self.room(&mut state, owner, newcomer.ticket.left())?;
+        state.waiting.push(owner, newcomer);
+        drop(state);
+        self.wake.notify_one();
+        Ok(())
+    }
+
+    fn room(&self, state: &mut State, owner: &str, left: Duration) -> Result<(), Refused> {
         if !state.open {
             return Err(Refused::Closed);
         }
@@ -177,13 +194,10 @@ impl Shared {
         // A free thread begins at once, whatever the past says.
         if !state.thread_free()
             && let Some(wait) = state.wait(owner, self.threads)
-            && wait >= newcomer.ticket.left()
+            && wait >= left
         {
             return Err(Refused::TooLate { retry_after: wait });
         }
-        state.waiting.push(owner, newcomer);
-        drop(state);
-        self.wake.notify_one();
         Ok(())
     }
 

@@ -133,6 +133,8 @@ async fn what_can_not_start_in_time_is_refused_at_once() {
     let Err(Refused::TooLate { retry_after }) = ask(&pool, Duration::from_secs(30)) else { panic!("taken") };
     // A minute for what runs, and no more than its own second for what waits.
     assert!(retry_after > minute && retry_after <= minute + Duration::from_secs(1), "{retry_after:?}");
+    assert!(matches!(pool.room(ANYBODY, Duration::from_secs(30)), Err(Refused::TooLate { .. })));
+    assert_eq!(pool.room(ANYBODY, LONG), Ok(()), "to ask takes no room");
     let patient = ask(&pool, LONG).unwrap();
     let Err(Refused::TooLate { retry_after }) = ask(&pool, minute) else { panic!("taken") };
     assert!(retry_after > 2 * minute, "{retry_after:?}");

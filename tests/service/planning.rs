@@ -54,6 +54,17 @@ async fn a_full_service_says_when_to_come_again() {
 }
 
 #[tokio::test]
+async fn what_a_full_service_refuses_it_has_not_read() {
+    static RUNNING: AtomicUsize = AtomicUsize::new(0);
+    let host = Host::with(ONE_THREAD(0), endless!(RUNNING)).await;
+    let faulty = json!({"settings": {"time_limit_ms": 1000}});
+    host.post("/v1/plans", &faulty).await.is_problem(422, "invalid_request");
+    let _busy = host.raw(&raw_plan(&scene(60_000)));
+    wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
+    host.post("/v1/plans", &faulty).await.is_problem(503, "overloaded");
+}
+
+#[tokio::test]
 async fn a_client_that_hangs_up_frees_its_thread() {
     static RUNNING: AtomicUsize = AtomicUsize::new(0);
     let host = Host::with(ONE_THREAD(0), endless!(RUNNING)).await;

@@ -1,5 +1,6 @@
 //! All jobs of a caller: new ones, several at once, and the list.
 
+use core::time::Duration;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -8,6 +9,7 @@ use axum::body::Body;
 use axum::extract::State;
 use axum::http::Request;
 use axum::response::Response;
+use tokio::time::timeout;
 
 use super::accepted::accepted;
 use super::problems::{JobProblems, not_accepted, unavailable};
@@ -18,10 +20,15 @@ use crate::api::document::RequestProblems;
 use crate::api::reading::Read;
 use crate::api::{body, edge};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
+use crate::metrics::Refusal;
 use crate::wire::{
-    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
+    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, ProblemKind, RequestLimits,
+    read_batch, read_job,
 };
 
+/// How long a request waits for its turn to hand in jobs: long enough for a fleet that starts at once, and the store takes
+/// hundreds a second.
+const SUBMIT_PATIENCE: Duration = Duration::from_secs(1);
 /// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
 const MAX_PAGE: u64 = 100;
 const DEFAULT_PAGE: u64 = 20;
@@ -119,6 +126,14 @@ async fn take(
     app.takes_work()?;
     let key = key(request.headers())?;
     let body = body::receive(request, &app.settings).await?;
+    let _submitting = match timeout(SUBMIT_PATIENCE, app.submitting.acquire()).await {
+        Ok(Ok(place)) => place,
+        _ => {
+            app.metrics.refused(Refusal::Limit);
+            let detail = "as many requests hand in jobs as may; nothing of this one was kept";
+            return Err(Problem::new(ProblemKind::Overloaded, detail));
+        }
+    };
     let (owner, allow) = (Owner::anonymous(), app.settings.jobs.callback_allow.clone());
     let own = owner.clone();
     let new = move |body: &[u8], limits: &RequestLimits| {
@@ -131,4 +146,32 @@ async fn take(
         edge::note_scene(job.scene_id.as_deref());
     }
     app.store.submit(&jobs, Timestamp::now()).await.map_err(not_accepted)
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::http::{StatusCode, header};
+    use tower::ServiceExt;
+
+    use super::*;
+    use crate::api::{Engine, ServerSettings, router};
+    use crate::jobs::JobSettings;
+
+    #[tokio::test]
+    async fn only_so_many_requests_hand_in_jobs_at_a_time() {
+        let jobs = JobSettings { url: "sqlite::memory:".to_owned(), ..JobSettings::default() };
+        let settings = ServerSettings { jobs, ..ServerSettings::default() };
+        let app = Arc::new(App::start(settings, Engine::default()).await.unwrap());
+        let ask = async || {
+            let request = Request::post("/v1/jobs").header(header::CONTENT_TYPE, "application/json");
+            router(Arc::clone(&app)).oneshot(request.body(Body::from("{}")).unwrap()).await.unwrap()
+        };
+        let others = app.submitting.available_permits().try_into().unwrap();
+        let others = app.submitting.acquire_many(others).await.unwrap();
+        let refused = ask().await;
+        assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
+        assert!(refused.headers().contains_key(header::RETRY_AFTER));
+        drop(others);
+        assert_eq!(ask().await.status(), StatusCode::UNPROCESSABLE_ENTITY);
+    }
 }
