@@ -10,6 +10,7 @@ use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
 use tracing::Span;
 
+use super::body::{self, Received};
 use super::edge;
 use super::problem::{internal, not_ready, refusal, refused, unread};
 use super::reading::{Known, Read, Reading, SMALL_BODY};
@@ -29,6 +30,8 @@ pub struct App {
     pub(super) store: Arc<dyn Store>,
     pub(super) runner: Arc<Runner>,
     pub(super) metrics: Arc<Metrics>,
+    /// Room for bodies, in pieces.
+    pub(super) bodies: Arc<Semaphore>,
     /// Room for requests that hand in jobs.
     pub(super) submitting: Semaphore,
     /// Room for clients that wait for a job.
@@ -67,6 +70,7 @@ impl App {
             runner: Arc::new(runner),
             metrics,
             submitting: Semaphore::new(MAX_SUBMITTING),
+            bodies: Arc::new(Semaphore::new(body::ROOM)),
             waiting,
             streams: Arc::new(streams),
             draining: Draining::default(),
@@ -95,7 +99,11 @@ impl App {
     /// # Errors
     /// A problem while it does.
     pub(super) fn takes_work(&self) -> Result<(), Problem> {
-        if self.draining.begun() { Err(not_ready()) } else { Ok(()) }
+        if !self.draining.begun() {
+            return Ok(());
+        }
+        self.metrics.refused(Refusal::NotReady);
+        Err(not_ready())
     }
 
     /// Read a body that is not to be answered at once: a small one here, a large one on the planning pool.
@@ -103,7 +111,7 @@ impl App {
         &self,
         owner: &Owner,
         arrival: Instant,
-        body: Vec<u8>,
+        body: Received,
         read: impl FnOnce(&[u8], &RequestLimits) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let limits = self.settings.limits;
@@ -157,7 +165,7 @@ impl App {
     pub(super) async fn answer<R: AsRef<PlanRequest> + Send + Sync + 'static>(
         &self,
         arrival: Instant,
-        (body, read): (Vec<u8>, Read<R>),
+        (body, read): (Received, Read<R>),
         work: impl FnOnce(&R, &Budget<'_>) -> Served + Send + 'static,
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {

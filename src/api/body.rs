@@ -1,38 +1,72 @@
 //! Receives a request's body: its declared type, its size, the time it takes.
 
 use core::future::poll_fn;
+use core::ops::Deref;
 use core::pin::Pin;
+use std::sync::Arc;
 
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, Request, header};
 use hyper::body::Body as _;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::timeout;
 
-use super::settings::ServerSettings;
+use super::app::App;
+use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
+
+/// Bodies take room in pieces of so many bytes.
+const PIECE: usize = 1024;
+/// The room for all bodies together, in pieces: 64 MB, sixteen of the largest bodies. Each connection could hold one.
+pub(super) const ROOM: usize = 64 * 1024;
+/// Pieces that cost nothing: most bodies have no more, and a connection itself takes about as much.
+const FREE: usize = 16;
+
+/// A body, and the room that it takes as long as it is kept.
+pub(super) struct Received {
+    bytes: Vec<u8>,
+    _room: Option<OwnedSemaphorePermit>,
+}
+
+impl Deref for Received {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.bytes
+    }
+}
 
 /// The whole body of a request that declares JSON.
 ///
 /// # Errors
-/// A problem if the type is another one, or the body is too large, too slow or incomplete.
-pub(super) async fn receive(request: Request<Body>, settings: &ServerSettings) -> Result<Vec<u8>, Problem> {
+/// A problem if the type is another one, or the body is too large, too slow or incomplete, or there is no room for it.
+pub(super) async fn receive(request: Request<Body>, app: &App) -> Result<Received, Problem> {
     check_type(request.headers())?;
+    let settings = &app.settings;
     let max = settings.max_body_bytes;
     // Who asks before sending is told at once: the system's 100 goes out only when the body is waited for.
     if request.headers().contains_key(header::EXPECT) && request.body().size_hint().lower() > max as u64 {
         return Err(too_large(max));
     }
-    let mut intake = Intake { received: Vec::new(), max, too_large: false };
+    let mut intake =
+        Intake { received: Vec::new(), max, too_large: false, bodies: &app.bodies, room: None, full: false };
     match timeout(settings.body_timeout, intake.take(request.into_body())).await {
         Ok(taken) => taken?,
-        Err(_) if intake.too_large => {}
+        Err(_) if intake.too_large || intake.full => {}
         Err(_) => {
             let seconds = settings.body_timeout.as_secs_f64();
             let detail = format!("the body was not complete after {seconds} s");
             return Err(Problem::new(ProblemKind::BodyTimeout, detail));
         }
     }
-    if intake.too_large { Err(too_large(max)) } else { Ok(intake.received) }
+    if intake.too_large {
+        return Err(too_large(max));
+    }
+    if intake.full {
+        app.metrics.refused(Refusal::Limit);
+        return Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"));
+    }
+    Ok(Received { bytes: intake.received, _room: intake.room })
 }
 
 fn too_large(max: usize) -> Problem {
@@ -40,25 +74,48 @@ fn too_large(max: usize) -> Problem {
 }
 
 /// What has been received so far.
-struct Intake {
+struct Intake<'a> {
     received: Vec<u8>,
     max: usize,
     too_large: bool,
+    bodies: &'a Arc<Semaphore>,
+    room: Option<OwnedSemaphorePermit>,
+    full: bool,
 }
 
-impl Intake {
+impl Intake<'_> {
     /// Take in all of the body. What is too large is not kept, but taken to its end all the same: many clients read the
     /// answer only once they have sent everything.
     async fn take(&mut self, mut body: Body) -> Result<(), Problem> {
         while let Some(piece) = next(&mut body).await? {
-            self.too_large |= self.received.len() + piece.len() > self.max;
-            if self.too_large {
-                self.received = Vec::new();
+            let length = self.received.len() + piece.len();
+            self.too_large |= length > self.max;
+            self.full |= !self.too_large && !self.make_room(length);
+            if self.too_large || self.full {
+                (self.received, self.room) = (Vec::new(), None);
             } else {
                 self.received.extend_from_slice(&piece);
             }
         }
         Ok(())
+    }
+}
+
+impl Intake<'_> {
+    /// True if there is room for so many bytes.
+    fn make_room(&mut self, length: usize) -> bool {
+        let held = self.room.as_ref().map_or(0, OwnedSemaphorePermit::num_permits);
+        let more = length.div_ceil(PIECE).saturating_sub(FREE).saturating_sub(held);
+        let Ok(more) = u32::try_from(more) else { return false };
+        if more == 0 {
+            return true;
+        }
+        let Ok(new) = Arc::clone(self.bodies).try_acquire_many_owned(more) else { return false };
+        match &mut self.room {
+            Some(room) => room.merge(new),
+            None => self.room = Some(new),
+        }
+        true
     }
 }
 

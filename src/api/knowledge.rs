@@ -39,7 +39,7 @@ use crate::wire::{KnowledgeBody, PlanRequest, Problem, SceneBody, read_scene};
 pub(super) async fn knowledge(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
-    let body = body::receive(request, &app.settings).await?;
+    let body = body::receive(request, &app).await?;
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
         let known = known(&request.scene, request.settings.grasp_model, budget);
         let known = known.map_err(|error| match error {

@@ -39,7 +39,7 @@ use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
 pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
-    let body = body::receive(request, &app.settings).await?;
+    let body = body::receive(request, &app).await?;
     let (engine, metrics) = (app.engine, Arc::clone(&app.metrics));
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
         let answer = engine.answer(request, budget)?;

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use super::body::Received;
 use super::problem::internal;
 use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
 use crate::workers::panicked;
@@ -16,7 +17,8 @@ pub(super) type Read<R> = fn(&[u8], &RequestLimits) -> Result<R, Problem>;
 
 /// A body that has been read or will be.
 pub(super) struct Reading<R> {
-    body: Vec<u8>,
+    /// A large one, until the answer is there.
+    body: Option<Received>,
     read: Read<R>,
     limits: RequestLimits,
     glance: Glance,
@@ -36,15 +38,19 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
     ///
     /// # Errors
     /// A problem with every fault of a small body.
-    pub(super) fn begin(body: Vec<u8>, read: Read<R>, limits: RequestLimits) -> Result<Self, Problem> {
+    pub(super) fn begin(body: Received, read: Read<R>, limits: RequestLimits) -> Result<Self, Problem> {
         if body.len() > SMALL_BODY {
             let glance = Glance::at(&body, &limits);
-            return Ok(Self { body, read, limits, glance, request: OnceLock::new() });
+            return Ok(Self { body: Some(body), read, limits, glance, request: OnceLock::new() });
         }
         let request = read(&body, &limits)?;
         let known = request.as_ref();
         let glance = Glance { scene_id: known.scene_id.clone(), target: None, time_limit: known.time_limit };
-        Ok(Self { body: Vec::new(), read, limits, glance, request: OnceLock::from(request) })
+        Ok(Self { body: None, read, limits, glance, request: OnceLock::from(request) })
+    }
+
+    fn bytes(&self) -> &[u8] {
+        self.body.as_deref().unwrap_or_default()
     }
 
     /// What can be told at once.
@@ -60,7 +66,7 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
         if let Some(request) = self.request.get() {
             return Ok(request);
         }
-        let request = (self.read)(&self.body, &self.limits)?;
+        let request = (self.read)(self.bytes(), &self.limits)?;
         Ok(self.request.get_or_init(|| request))
     }
 
@@ -69,7 +75,7 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
         match self.request.get() {
             Some(request) => panicked(request.as_ref()),
             None => {
-                tracing::error!(body = %String::from_utf8_lossy(&self.body), "reading a body panicked");
+                tracing::error!(body = %String::from_utf8_lossy(self.bytes()), "reading a body panicked");
                 internal()
             }
         }

@@ -1,5 +1,6 @@
 //! The service from its start to its end.
 
+use core::pin::pin;
 use core::time::Duration;
 use std::io;
 use std::sync::Arc;
@@ -45,7 +46,12 @@ pub async fn run_with(
     engine: Engine,
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
-    let app = Arc::new(App::start(settings, engine).await?);
+    let mut shutdown = pin!(shutdown);
+    let app = tokio::select! {
+        app = App::start(settings, engine) => Arc::new(app?),
+        // A store that can't be reached is not waited for.
+        () = &mut shutdown => return Ok(()),
+    };
     let background = Background::begin(&app)?;
     let mut connections = Connections::new(listener, Arc::clone(&app));
     connections.serve_until(shutdown).await;

@@ -36,7 +36,7 @@ use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
 pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
-    let body = body::receive(request, &app.settings).await?;
+    let body = body::receive(request, &app).await?;
     let engine = app.engine;
     let work = move |request: &PlanRequest, budget: &Budget<'_>| {
         json(&SurveyBody::new(&request.scene, &engine.survey(request, budget)?))

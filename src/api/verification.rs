@@ -35,7 +35,7 @@ use crate::wire::{Problem, VerificationBody, VerifyBody, VerifyRequest, read_ver
 pub(super) async fn verify(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
-    let body = body::receive(request, &app.settings).await?;
+    let body = body::receive(request, &app).await?;
     let engine = app.engine;
     let work = move |VerifyRequest { request, claim }: &VerifyRequest, budget: &Budget<'_>| {
         json(&VerificationBody::new(&(engine.check)(&request.scene, claim, budget)))

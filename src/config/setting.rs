@@ -131,7 +131,9 @@ pub static SETTINGS: &[Setting] = &[
         help: "Where jobs are kept: sqlite:PATH, sqlite::memory: or postgres://…",
         set: |config, text| {
             if !["sqlite:", "postgres:", "postgresql:"].iter().any(|scheme| text.starts_with(scheme)) {
-                return Err(format!("'{text}' begins with neither sqlite: nor postgres:"));
+                // The rest may hold a password.
+                let scheme = text.split_once(':').map_or("", |(scheme, _)| scheme);
+                return Err(format!("an address that begins with '{scheme}:' is neither sqlite: nor postgres:"));
             }
             text.clone_into(&mut config.server.jobs.url);
             Ok(())
@@ -159,7 +161,11 @@ pub static SETTINGS: &[Setting] = &[
         scope: Scope::Service,
         placeholder: "MS",
         help: "For how long a worker that says nothing keeps its job",
-        set: |config, text| milliseconds(text, &mut config.server.jobs.lease),
+        set: |config, text| {
+            // Below a second a busy machine would take jobs from workers that live.
+            config.server.jobs.lease = Duration::from_millis(whole(text, 1000, MAX_MS)?);
+            Ok(())
+        },
         get: |config| config.server.jobs.lease.as_millis().to_string(),
     },
     Setting {

@@ -4,7 +4,7 @@ use core::time::Duration;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use tokio::sync::watch;
-use tokio::time::{MissedTickBehavior, interval, sleep};
+use tokio::time::{Instant, MissedTickBehavior, interval_at, sleep_until};
 use tokio_util::sync::CancellationToken;
 
 use super::job::End;
@@ -15,6 +15,9 @@ use crate::budget::Incumbent;
 
 /// The least time between two notes of the best so far: nobody reads faster, and each is a write.
 const NOTE_EVERY: Duration = Duration::from_millis(100);
+
+/// When to look at a new lease for the first time. Most jobs have ended by then, and cost no write more.
+const FIRST_LOOK: Duration = Duration::from_millis(10);
 
 /// A claimed job.
 pub(super) struct Held {
@@ -34,23 +37,30 @@ impl Held {
     /// lost.
     pub(super) async fn keep(&self, incumbent: &mut watch::Receiver<Option<Incumbent>>, cancelled: impl Fn()) {
         let watcher = self.store.hints().watch(self.claim.id);
-        let mut renewal = interval(self.lease / 3);
+        let mut changed = Box::pin(watcher.changed());
+        // The lease is new; but a wish to cancel may have come between the claim and the watching.
+        let mut renewal = interval_at(Instant::now() + FIRST_LOOK, self.lease / 3);
         renewal.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        // The first tick is at once, and the lease is new.
-        renewal.tick().await;
+        let mut next_note = Instant::now();
         let mut told = true;
         loop {
-            let changed = watcher.changed();
+            let noting = async {
+                let news = incumbent.changed().await;
+                sleep_until(next_note).await;
+                news
+            };
             let renewed = tokio::select! {
                 _ = renewal.tick() => self.renew().await,
                 // Perhaps it was cancelled.
-                () = changed => self.renew().await,
-                news = incumbent.changed(), if told => {
+                () = changed.as_mut() => {
+                    changed = Box::pin(watcher.changed());
+                    self.renew().await
+                }
+                news = noting, if told => {
                     told = news.is_ok();
+                    next_note = Instant::now() + NOTE_EVERY;
                     let best = *incumbent.borrow_and_update();
-                    let noted = self.note(best).await;
-                    sleep(NOTE_EVERY).await;
-                    noted.map(|held| if held { Renewal::Held } else { Renewal::Lost })
+                    self.note(best).await.map(|held| if held { Renewal::Held } else { Renewal::Lost })
                 }
             };
             match renewed {

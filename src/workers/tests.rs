@@ -102,6 +102,11 @@ fn held(pool: &Pool) -> (std::sync::mpsc::Sender<()>, super::Pending<bool>) {
     (release, pending)
 }
 
+/// So long have computations taken of late.
+fn have_taken(pool: &Pool, time: Duration) {
+    (0..1000).for_each(|_| pool.shared.lock().forecast.note(time));
+}
+
 #[tokio::test]
 async fn owners_take_turns_at_the_thread() {
     let pool = Pool::new(1, 10).unwrap();
@@ -129,7 +134,7 @@ async fn what_can_not_start_in_time_is_refused_at_once() {
     let (release, _running) = held(&pool);
     // Nothing has ended yet, so nothing is known.
     let hopeful = ask(&pool, Duration::from_secs(1)).unwrap();
-    pool.shared.lock().forecast.note(minute);
+    have_taken(&pool, minute);
     let Err(Refused::TooLate { retry_after }) = ask(&pool, Duration::from_secs(30)) else { panic!("taken") };
     // A minute for what runs, and no more than its own second for what waits.
     assert!(retry_after > minute && retry_after <= minute + Duration::from_secs(1), "{retry_after:?}");
@@ -151,7 +156,7 @@ async fn who_has_fewer_before_it_is_taken_where_another_is_refused() {
     let pool = Pool::new(1, 10).unwrap();
     let limit = Duration::from_secs(150);
     let (_release, _running) = held(&pool);
-    pool.shared.lock().forecast.note(Duration::from_secs(60));
+    have_taken(&pool, Duration::from_secs(60));
     let ask = |owner| pool.submit(owner, Instant::now(), limit, |_| 7);
     let _waiting = (ask("a").unwrap(), ask("a").unwrap());
     assert!(matches!(ask("a"), Err(Refused::TooLate { .. })));

@@ -5,7 +5,7 @@ use core::time::Duration;
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
 
-use crate::host::{Host, read_to_end, scene};
+use crate::host::{Host, PATIENCE, read_to_end, scene};
 
 #[tokio::test]
 async fn every_fault_of_a_scene_is_told_at_once() {
@@ -171,5 +171,34 @@ async fn another_method_is_a_405_that_says_which_are_allowed() {
         let reply = host.post(path, &json!({})).await;
         reply.is_problem(405, "method_not_allowed");
         assert_eq!(reply.header("allow"), "GET,HEAD");
+    }
+}
+
+// The client writes megabytes without waiting for anything: on another thread than the server.
+#[tokio::test(flavor = "multi_thread")]
+async fn there_is_room_for_so_many_large_bodies_and_always_for_small_ones() {
+    let settings = ServerSettings { body_timeout: PATIENCE, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let length = 4_000_000;
+    let head = format!(
+        "POST /v1/plans HTTP/1.1\r\nhost: x\r\nconnection: close\r\ncontent-type: application/json\r\ncontent-length: {length}\r\n\r\n"
+    );
+    let begun = format!("{head}{}", " ".repeat(length - 1));
+    let holders: Vec<_> = (0..16).map(|_| host.raw(&begun)).collect();
+    let large = || async { host.ask(&format!("{begun}x")).await };
+    // Those before may still be on their way.
+    let started = std::time::Instant::now();
+    loop {
+        let answer = large().await;
+        if answer.starts_with("HTTP/1.1 503 ") {
+            assert!(answer.contains("retry-after: 1") && answer.contains("overloaded"), "{answer}");
+            break;
+        }
+        assert!(answer.starts_with("HTTP/1.1 400 ") && started.elapsed() < PATIENCE, "{answer}");
+    }
+    assert_eq!(host.post("/v1/plans", &scene(10_000)).await.status, 200);
+    drop(holders);
+    while !large().await.starts_with("HTTP/1.1 400 ") {
+        assert!(started.elapsed() < PATIENCE);
     }
 }

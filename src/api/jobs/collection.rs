@@ -111,7 +111,7 @@ pub(in crate::api) async fn list(
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     // One more tells whether there are more.
     let page = Page { state, before, limit: limit + 1 };
-    let jobs = app.store.list(&Owner::anonymous(), page).await.map_err(|error| unavailable(&error))?;
+    let jobs = app.store.list(&Owner::anonymous(), page).await.map_err(|error| unavailable(&app, &error))?;
     let next_cursor = (jobs.len() > limit).then(|| jobs[limit - 1].id.to_string());
     Ok(Json(JobListBody { jobs: jobs.iter().take(limit).map(Job::body).collect(), next_cursor }))
 }
@@ -125,7 +125,7 @@ async fn take(
     let arrival = Instant::now();
     app.takes_work()?;
     let key = key(request.headers())?;
-    let body = body::receive(request, &app.settings).await?;
+    let body = body::receive(request, app).await?;
     let _submitting = match timeout(SUBMIT_PATIENCE, app.submitting.acquire()).await {
         Ok(Ok(place)) => place,
         _ => {
@@ -145,7 +145,7 @@ async fn take(
     if let [job] = &jobs[..] {
         edge::note_scene(job.scene_id.as_deref());
     }
-    app.store.submit(&jobs, Timestamp::now()).await.map_err(not_accepted)
+    app.store.submit(&jobs, Timestamp::now()).await.map_err(|error| not_accepted(app, error))
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use core::convert::Infallible;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event as Message, KeepAlive, Sse};
@@ -17,7 +18,7 @@ use super::problems::{OneJobProblems, job_id};
 use crate::api::app::App;
 use crate::jobs::{Job, JobId, Owner, Watcher};
 use crate::metrics::{Open, Refusal};
-use crate::wire::{JobBody, Problem, ProblemKind};
+use crate::wire::{Problem, ProblemKind};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
@@ -36,21 +37,22 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
         ("Last-Event-ID" = Option<String>, Header, description = "The last event that was received; only later ones come."),
     ),
     responses(
-        (status = 200, description = "The events.", body = JobBody, content_type = "text/event-stream"),
+        (status = 200, description = "The events.", body = String, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and all its events were received."),
         OneJobProblems,
     )
 )]
 pub(in crate::api) async fn events(
     State(app): State<Arc<App>>,
-    Path(id): Path<String>,
+    id: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let id = job_id(&id)?;
-    // A name that no event of ours has begins anew.
-    let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok()).unwrap_or_default();
+    let id = job_id(id)?;
+    let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok());
     let job = find(&app, id).await?;
-    if job.state.finished() && seen >= job.events.len() {
+    // A name that no event of ours has begins anew.
+    let seen = seen.filter(|seen| *seen <= job.events.len()).unwrap_or_default();
+    if job.state.finished() && seen == job.events.len() {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
     let slot = Arc::clone(&app.streams).try_acquire_owned().map_err(|_| {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use axum::Json;
+use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::http::StatusCode;
 use axum::response::Response;
@@ -20,8 +21,9 @@ use crate::wire::{JobBody, Problem, ProblemKind};
 
 /// The longest wait, ms: what proxies and clients bear.
 const MAX_WAIT_MS: u64 = 60_000;
-/// How often whoever waits looks without a hint: those of other servers may be lost.
-pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(1);
+/// How often whoever waits looks without a hint: those of other servers may be lost. Thousands may wait, and each look is
+/// a question to the store.
+pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
 
 /// How does a job stand?
 ///
@@ -42,10 +44,10 @@ pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(1);
 )]
 pub(in crate::api) async fn show(
     State(app): State<Arc<App>>,
-    Path(id): Path<String>,
+    id: Result<Path<String>, PathRejection>,
     parameters: Parameters,
 ) -> Result<Json<JobBody>, Problem> {
-    let id = job_id(&id)?;
+    let id = job_id(id)?;
     let wait = parameters.only(&["wait_ms"])?.number("wait_ms", 0..=MAX_WAIT_MS)?.unwrap_or_default();
     let job = if wait == 0 { find(&app, id).await? } else { wait_for(&app, id, Duration::from_millis(wait)).await? };
     Ok(Json(job.body()))
@@ -67,10 +69,13 @@ pub(in crate::api) async fn show(
         OneJobProblems,
     )
 )]
-pub(in crate::api) async fn cancel(State(app): State<Arc<App>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let id = job_id(&id)?;
+pub(in crate::api) async fn cancel(
+    State(app): State<Arc<App>>,
+    id: Result<Path<String>, PathRejection>,
+) -> Result<Response, Problem> {
+    let id = job_id(id)?;
     let cancelled = app.store.cancel(&Owner::anonymous(), id, Timestamp::now()).await;
-    match cancelled.map_err(|error| unavailable(&error))? {
+    match cancelled.map_err(|error| unavailable(&app, &error))? {
         Cancellation::Unknown => Err(no_such_job()),
         Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
         Cancellation::Accepted(job) => {
@@ -99,9 +104,12 @@ pub(in crate::api) async fn cancel(State(app): State<Arc<App>>, Path(id): Path<S
         OneJobProblems,
     )
 )]
-pub(in crate::api) async fn forget(State(app): State<Arc<App>>, Path(id): Path<String>) -> Result<StatusCode, Problem> {
-    let removal = app.store.forget(&Owner::anonymous(), job_id(&id)?).await;
-    match removal.map_err(|error| unavailable(&error))? {
+pub(in crate::api) async fn forget(
+    State(app): State<Arc<App>>,
+    id: Result<Path<String>, PathRejection>,
+) -> Result<StatusCode, Problem> {
+    let removal = app.store.forget(&Owner::anonymous(), job_id(id)?).await;
+    match removal.map_err(|error| unavailable(&app, &error))? {
         Removal::Unknown => Err(no_such_job()),
         Removal::Unfinished => Err(Problem::new(ProblemKind::JobUnfinished, "cancel it first")),
         Removal::Forgotten => Ok(StatusCode::NO_CONTENT),
@@ -111,7 +119,7 @@ pub(in crate::api) async fn forget(State(app): State<Arc<App>>, Path(id): Path<S
 /// A job of the caller's.
 pub(super) async fn find(app: &App, id: JobId) -> Result<Job, Problem> {
     let found = app.store.get(&Owner::anonymous(), id).await;
-    found.map_err(|error| unavailable(&error))?.ok_or_else(no_such_job)
+    found.map_err(|error| unavailable(app, &error))?.ok_or_else(no_such_job)
 }
 
 /// The job once it has ended, or as it stands when the time is over or the service shuts down.

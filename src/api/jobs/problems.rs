@@ -2,25 +2,33 @@
 
 use std::collections::BTreeMap;
 
+use axum::extract::Path;
+use axum::extract::rejection::PathRejection;
 use utoipa::IntoResponses;
 use utoipa::openapi::{RefOr, Response};
 
+use crate::api::app::App;
 use crate::api::document::problem;
 use crate::jobs::{JobId, StoreError, SubmitError};
+use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
 /// The store failed.
-pub(super) fn unavailable(error: &StoreError) -> Problem {
+pub(super) fn unavailable(app: &App, error: &StoreError) -> Problem {
+    app.metrics.refused(Refusal::StoreUnavailable);
     tracing::warn!(%error, "a request was not answered");
     Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
 }
 
 /// Jobs were not accepted.
-pub(super) fn not_accepted(error: SubmitError) -> Problem {
+pub(super) fn not_accepted(app: &App, error: SubmitError) -> Problem {
     match error {
-        SubmitError::Full => Problem::new(ProblemKind::Overloaded, "as many jobs wait as may"),
+        SubmitError::Full => {
+            app.metrics.refused(Refusal::Full);
+            Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
+        }
         SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
-        SubmitError::Store(error) => unavailable(&error),
+        SubmitError::Store(error) => unavailable(app, &error),
     }
 }
 
@@ -33,7 +41,9 @@ pub(super) fn no_such_job() -> Problem {
 ///
 /// # Errors
 /// What is no name is the name of no job.
-pub(super) fn job_id(text: &str) -> Result<JobId, Problem> {
+pub(super) fn job_id(name: Result<Path<String>, PathRejection>) -> Result<JobId, Problem> {
+    // What is no text is no name either.
+    let Ok(Path(text)) = name else { return Err(no_such_job()) };
     text.parse().map_err(|_| no_such_job())
 }
 

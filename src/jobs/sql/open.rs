@@ -61,12 +61,20 @@ pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<d
 
 async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
     let memory = settings.url.starts_with("sqlite::memory:");
+    let path =
+        settings.url.trim_start_matches("sqlite:").trim_start_matches("//").split('?').next().unwrap_or_default();
+    if path.is_empty() || (!memory && settings.url.contains("mode=memory")) {
+        // SQLite would make a database for each connection, which ends with it.
+        return Err(Error::Configuration("it names no file".into()));
+    }
     let created = if settings.url.contains('?') { "&mode=rwc" } else { "?mode=rwc" };
     let url =
         if memory || settings.url.contains("mode=") { settings.url.clone() } else { settings.url.clone() + created };
     let options = url.parse::<AnyConnectOptions>()?.disable_statement_logging();
     // Nothing closes these connections: memory would go with them.
     let pool = AnyPoolOptions::new().acquire_timeout(SQLITE_WAIT).idle_timeout(None).max_lifetime(None);
+    // A full disk ends a transaction behind the driver's back, which then counts one too many for ever.
+    let pool = pool.before_acquire(|connection, _| Box::pin(async move { Ok(!connection.is_in_transaction()) }));
     let writing = "PRAGMA busy_timeout = 5000; PRAGMA synchronous = FULL";
     let reading = "PRAGMA busy_timeout = 5000; PRAGMA query_only = ON";
     let writers = on_connect(pool.clone().max_connections(1), writing).connect_with(options.clone()).await?;

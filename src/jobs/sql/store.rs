@@ -21,8 +21,10 @@ use crate::jobs::{
 
 use crate::metrics::{Metrics, StoreOutcome};
 
-/// How long the database may take. It is less than a lease: a worker must hear in time that its store is away.
+/// How long the database may take, and where half a lease is less, that: a worker must hear in time that its store is away.
+/// But a database may well take some seconds now and then.
 const PATIENCE: Duration = Duration::from_secs(8);
+const LEAST_PATIENCE: Duration = Duration::from_secs(3);
 
 /// Jobs in a database.
 pub(super) struct SqlStore {
@@ -63,9 +65,10 @@ impl SqlStore {
         work: impl Future<Output = Result<T, Error>>,
     ) -> Result<T, StoreError> {
         let asked = Instant::now();
-        let answer = match timeout(PATIENCE, work).await {
+        let patience = (self.settings.lease / 2).clamp(LEAST_PATIENCE, PATIENCE);
+        let answer = match timeout(patience, work).await {
             Ok(answer) => answer.map_err(|error| StoreError(format!("{operation}: {error}"))),
-            Err(_) => Err(StoreError(format!("{operation}: no answer within {} s", PATIENCE.as_secs()))),
+            Err(_) => Err(StoreError(format!("{operation}: no answer within {} ms", patience.as_millis()))),
         };
         let outcome = if answer.is_ok() { StoreOutcome::Done } else { StoreOutcome::Failed };
         self.metrics.store(operation, outcome, asked.elapsed());
