@@ -7,17 +7,14 @@
 
 use std::cmp::Reverse;
 use std::collections::hash_map::DefaultHasher;
-use std::collections::{BinaryHeap, HashSet};
-use std::hash::BuildHasherDefault;
+use std::collections::{BinaryHeap, HashMap};
+use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use super::conclusion::Conclusion;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 use crate::search::Derivation;
-
-/// A set of objects, one bit each.
-type Relocated = Box<[u64]>;
 
 /// How a state was reached: the last object relocated, and the state before.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +29,53 @@ struct Forward<'a> {
     steps: Vec<Step>,
     /// Cheapest f first, of those the one nearest to the goal, of those the oldest: (f, h, state).
     open: BinaryHeap<Reverse<(usize, usize, usize)>>,
-    reached: HashSet<Relocated, BuildHasherDefault<DefaultHasher>>,
+    reached: Reached,
+}
+
+/// The sets that were reached, by the number of the state; one bit an object. All of them lie in a few large pieces of
+/// memory: given back one by one, half a million would keep a core for ten milliseconds after nobody wants them any more.
+struct Reached {
+    /// Words of a set.
+    width: usize,
+    words: Vec<u64>,
+    /// By a set's hash, the latest state that has it.
+    latest: HashMap<u64, usize, BuildHasherDefault<DefaultHasher>>,
+    /// By the state, the one before it of the same hash; itself where there is none.
+    before: Vec<usize>,
+}
+
+impl Reached {
+    fn new(objects: usize) -> Self {
+        Self { width: objects.div_ceil(64).max(1), words: Vec::new(), latest: HashMap::default(), before: Vec::new() }
+    }
+
+    fn set(&self, state: usize) -> &[u64] {
+        &self.words[state * self.width..][..self.width]
+    }
+
+    fn contains(&self, set: &[u64]) -> bool {
+        let Some(mut state) = self.latest.get(&digest(set)).copied() else { return false };
+        while self.set(state) != set {
+            if self.before[state] == state {
+                return false;
+            }
+            state = self.before[state];
+        }
+        true
+    }
+
+    /// The set of the next state.
+    fn push(&mut self, set: &[u64]) {
+        let state = self.before.len();
+        self.words.extend_from_slice(set);
+        self.before.push(self.latest.insert(digest(set), state).unwrap_or(state));
+    }
+}
+
+fn digest(set: &[u64]) -> u64 {
+    let mut hasher = DefaultHasher::default();
+    set.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// The state in which everything stands.
@@ -48,16 +91,12 @@ pub fn forward_astar(
     max_states: usize,
     budget: &Budget<'_>,
 ) -> Result<Conclusion, Interrupted> {
-    let nothing: Relocated = vec![0; base.len().div_ceil(64)].into();
-    let Some(h) = g_min(base, target, &nothing) else { return Ok(Conclusion::Deadlock) };
+    let mut reached = Reached::new(base.len());
+    reached.push(&vec![0; reached.width]);
+    let Some(h) = g_min(base, target, reached.set(START)) else { return Ok(Conclusion::Deadlock) };
     let start = Step { object: target, before: START };
-    let mut forward = Forward {
-        base,
-        target,
-        steps: vec![start],
-        open: BinaryHeap::from([Reverse((h, h, START))]),
-        reached: HashSet::from_iter([nothing]),
-    };
+    let mut forward =
+        Forward { base, target, steps: vec![start], open: BinaryHeap::from([Reverse((h, h, START))]), reached };
     while let Some(Reverse((f, h, state))) = forward.open.pop() {
         budget.check()?;
         if h == 0 {
@@ -74,8 +113,7 @@ pub fn forward_astar(
 impl Forward<'_> {
     /// Relocate one more object.
     fn expand(&mut self, state: usize, g: usize) {
-        let mut relocated: Relocated = vec![0; self.base.len().div_ceil(64)].into();
-        self.sequence(state).into_iter().for_each(|object| set(&mut relocated, object, true));
+        let mut relocated = self.reached.set(state).to_vec();
         for object in self.base.objects() {
             let graspable = |object| self.base.options(object).any(|option| standing(option, &relocated) == 0);
             if object == self.target || contains(&relocated, object) || !graspable(object) {
@@ -85,7 +123,7 @@ impl Forward<'_> {
             if !self.reached.contains(&relocated)
                 && let Some(h) = g_min(self.base, self.target, &relocated)
             {
-                self.reached.insert(relocated.clone());
+                self.reached.push(&relocated);
                 self.open.push(Reverse((g + 1 + h, h, self.steps.len())));
                 self.steps.push(Step { object, before: state });
             }

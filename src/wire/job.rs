@@ -140,6 +140,36 @@ pub struct JobBody {
     pub problem: Option<Box<RawValue>>,
 }
 
+/// The kinds of event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(example = "running")]
+pub enum JobEventWord {
+    /// The job waits for a worker: new, or after a worker was lost.
+    Queued,
+    /// A worker began.
+    Running,
+    /// A better set or a better bound is known.
+    Incumbent,
+    /// The job ended, whatever way.
+    Finished,
+    /// The service shuts down.
+    Draining,
+}
+
+/// One event of a stream.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct JobEventBody {
+    /// Its number among the job's events, from 1; `draining` has none.
+    #[schema(example = "2")]
+    pub id: Option<String>,
+    /// What happened.
+    pub event: JobEventWord,
+    /// The job as it stood then, as JSON; `{}` for `draining`.
+    #[schema(example = "{}")]
+    pub data: String,
+}
+
 /// Jobs that were accepted.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobsBody {

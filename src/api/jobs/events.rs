@@ -18,7 +18,7 @@ use super::problems::{OneJobProblems, job_id};
 use crate::api::app::App;
 use crate::jobs::{Job, JobId, Owner, Watcher};
 use crate::metrics::{Open, Refusal};
-use crate::wire::{Problem, ProblemKind};
+use crate::wire::{JobEventBody, Problem, ProblemKind};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
@@ -37,7 +37,7 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
         ("Last-Event-ID" = Option<String>, Header, description = "The last event that was received; only later ones come."),
     ),
     responses(
-        (status = 200, description = "The events.", body = String, content_type = "text/event-stream"),
+        (status = 200, description = "The events.", body = JobEventBody, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and all its events were received."),
         OneJobProblems,
     )
