@@ -122,3 +122,45 @@ impl Held {
         tracing::warn!(job = %self.claim.id, error, "{what}");
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tokio::sync::Notify;
+    use tokio::time::timeout;
+
+    use super::*;
+    use crate::jobs::{Cancellation, JobId, JobSettings, NewJob, Owner, open};
+
+    #[tokio::test]
+    async fn a_cancel_between_the_claim_and_the_watching_is_heard() {
+        // Whoever heard of it only when the lease is renewed would hear of it after 20 s.
+        let lease = Duration::from_secs(60);
+        let settings = JobSettings { url: "sqlite::memory:".to_owned(), lease, ..JobSettings::default() };
+        let store = open(&settings, Arc::default()).await.unwrap();
+        let (id, owner, now) = (JobId::new(), Owner::anonymous(), Timestamp::now());
+        let job = NewJob {
+            id,
+            owner: owner.clone(),
+            key: None,
+            request_sha256: String::new(),
+            scene_id: None,
+            scene_sha256: String::new(),
+            body: b"{}".to_vec(),
+            priority: 0,
+            callback_url: None,
+        };
+        store.submit(&[job], now).await.unwrap();
+        let claim = store.claim(now).await.unwrap().unwrap().claim;
+        assert!(matches!(store.cancel(&owner, id, now).await, Ok(Cancellation::Accepted(_))));
+        let held = Held::new(store, claim, lease);
+        let (_planner, mut incumbent) = watch::channel(None);
+        let heard = Notify::new();
+        let hearing = async {
+            tokio::select! {
+                () = held.keep(&mut incumbent, || heard.notify_one()) => {}
+                () = heard.notified() => {}
+            }
+        };
+        timeout(Duration::from_secs(15), hearing).await.expect("it is heard of at once");
+    }
+}

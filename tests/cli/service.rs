@@ -178,3 +178,14 @@ fn plan_status(service: &Service) -> String {
     BufReader::new(stream).read_line(&mut line).unwrap();
     line
 }
+
+#[test]
+fn a_service_that_waits_for_its_store_can_be_ended() {
+    // It takes connections and never says a word.
+    let store = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("postgres://somebody@{}/jobs", store.local_addr().unwrap());
+    let mut service = Service::with(&[("SINGULATE_JOBS_URL", &url)]);
+    store.accept().unwrap();
+    service.signal(Signal::TERM);
+    assert_eq!(service.ended().code(), Some(0));
+}

@@ -86,3 +86,28 @@ async fn where_nothing_can_be_kept_the_setting_is_named() {
     }
     assert!(refusal(&missing).await.contains("folder"));
 }
+
+#[tokio::test]
+async fn an_address_that_names_no_file_is_refused() {
+    // SQLite would open each of them, keep what it is given for one connection alone, and forget it.
+    for url in ["sqlite:", "sqlite://", "sqlite:?mode=rwc", "sqlite:jobs.db?mode=memory"] {
+        let text = refusal(url).await;
+        assert!(text.contains("names no file"), "{url}: {text}");
+    }
+}
+
+#[tokio::test]
+async fn a_writer_whose_transaction_was_ended_behind_its_back_is_replaced() {
+    let home = Home::in_a_file();
+    let store = home.store().await;
+    // No page more than there are, as on a full disk: the next large job does not fit.
+    let mut other = SqliteConnection::connect(&home.settings.url).await.unwrap();
+    sqlx::query("CREATE TRIGGER full BEFORE INSERT ON jobs WHEN length(NEW.body) > 1000 BEGIN SELECT RAISE(ROLLBACK, 'full'); END")
+        .execute(&mut other)
+        .await
+        .unwrap();
+    let large = singulate::jobs::NewJob { body: vec![b' '; 2000], ..job() };
+    assert!(store.submit(&[large], at(0)).await.is_err());
+    // SQLite has rolled back by itself, which the driver does not know.
+    submitted(&store, job()).await;
+}

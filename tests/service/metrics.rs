@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
+use singulate::jobs::JobSettings;
 use singulate::metrics::{CallbackOutcome, Ended, Metrics, Queue, Refusal, StoreOutcome};
 use singulate::plan::{Answer, Statistics, Unplanned, Verdict};
 use tokio::time::timeout;
@@ -233,4 +234,12 @@ async fn what_is_turned_away_and_who_hangs_up_is_counted() {
     drop(held);
     let gone = ["route=\"/v1/survey\"", "status=\"hung_up\""];
     until(&host, |families| count(families, "singulate_http_request_seconds", &gone) > 0.5).await;
+}
+
+#[tokio::test]
+async fn a_job_that_is_not_accepted_is_counted() {
+    let jobs = JobSettings { max_queued: 0, ..JobSettings::default() };
+    let host = Host::with(ServerSettings { jobs, ..ServerSettings::default() }, Engine::default()).await;
+    host.post("/v1/jobs", &scene(10_000)).await.is_problem(503, "overloaded");
+    until(&host, |families| count(families, "singulate_requests_refused", &["reason=\"full\""]) > 0.5).await;
 }
