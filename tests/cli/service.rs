@@ -185,7 +185,7 @@ fn a_service_that_waits_for_its_store_can_be_ended() {
     let store = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("postgres://somebody@{}/jobs", store.local_addr().unwrap());
     let mut service = Service::with(&[("SINGULATE_JOBS_URL", &url)]);
-    store.accept().unwrap();
+    let _silent = store.accept().unwrap();
     service.signal(Signal::TERM);
     assert_eq!(service.ended().code(), Some(0));
 }
