@@ -56,6 +56,7 @@ impl Default for ServerSettings {
             header_timeout: Duration::from_secs(5),
             // The largest body at 6.4 Mbit/s.
             body_timeout: Duration::from_secs(5),
+            // A client on a bad line takes some bytes in this time; one that takes none has gone, or means harm.
             write_timeout: Duration::from_secs(30),
             // What container managers wait between asking a process to end and killing it is this or longer.
             drain: Duration::from_secs(10),

@@ -29,8 +29,11 @@ impl Default for JobSettings {
         Self {
             url: "sqlite:singulate.db".to_owned(),
             threads: available_parallelism().map_or(1, usize::from),
+            // Half a minute's work of one server where jobs are quick; a longer queue would only hide that something is wrong.
             max_queued: 10_000,
+            // A lost worker's job waits hardly longer; a worker that lives renews it three times over.
             lease: Duration::from_secs(10),
+            // Whoever waits longer for a table has another table by then.
             ttl: Duration::from_hours(1),
             callback_allow: CallbackAllow::default(),
             callback_secret: None,

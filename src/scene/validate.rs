@@ -19,7 +19,7 @@ pub const LENGTH_RANGE: (f64, f64) = (1e-6, 1e3);
 pub const MARGIN_RANGE: (f64, f64) = (0.0, 1e3);
 /// Yaw tolerance, rad.
 pub const YAW_TOLERANCE_RANGE: (f64, f64) = (0.0, core::f64::consts::PI);
-/// k.
+/// k: two fingers are the fewest that hold, and no gripper is known with more than twelve.
 pub const FINGERS_RANGE: (f64, f64) = (2.0, 12.0);
 /// The longest id, in characters: ids stand many times in an answer.
 pub const MAX_ID_LENGTH: usize = 128;
@@ -37,7 +37,14 @@ pub struct SceneLimits {
 
 impl Default for SceneLimits {
     fn default() -> Self {
-        Self { max_objects: 10_000, max_neighbours: 256, overlap_tolerance: 1e-3 }
+        Self {
+            // Far more than a table holds; knowledge of so many still takes tens of milliseconds.
+            max_objects: 10_000,
+            // A dish among dishes has six; so many are crumbs, and their sets of blockers would cost memory for nothing.
+            max_neighbours: 256,
+            // What a camera is off by.
+            overlap_tolerance: 1e-3,
+        }
     }
 }
 

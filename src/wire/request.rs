@@ -30,7 +30,9 @@ impl Default for RequestLimits {
     fn default() -> Self {
         Self {
             scene: SceneLimits::default(),
+            // A thousand times what most scenes take, and a robot bears to wait so long.
             default_time_limit: Duration::from_millis(1000),
+            // The paper's own limit. Whoever has more time has a thread for as long.
             max_time_limit: Duration::from_millis(60_000),
             raster_resolution: DEFAULT_RESOLUTION,
         }
