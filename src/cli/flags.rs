@@ -41,7 +41,7 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
             .help_heading("Settings")
             .help("A TOML file with settings, keys as the flags with _ for - [env: SINGULATE_CONFIG]");
         Self::settings().fold(command.arg(config), |command, setting| {
-            let (default, variable) = ((setting.get)(&defaults), setting.variable());
+            let (default, variable) = (setting.get(&defaults), setting.variable());
             let flag = Arg::new(setting.name)
                 .long(setting.flag())
                 .value_name(setting.placeholder)

@@ -5,7 +5,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::Config;
-use super::setting::{SETTINGS, Setting};
+use super::setting::Setting;
+use super::settings::SETTINGS;
 
 /// What every variable of ours begins with.
 const PREFIX: &str = "SINGULATE_";
@@ -59,7 +60,7 @@ pub fn load(
     let (file, variables) = variables(environment, &mut faults);
     let mut config = Config::default();
     let mut apply = |setting: &Setting, source: &Source, text: &str, faults: &mut Vec<String>| {
-        if let Err(detail) = (setting.set)(&mut config, text) {
+        if let Err(detail) = setting.set(&mut config, text) {
             faults.push(format!("{source}: {detail}"));
         }
     };
@@ -209,7 +210,7 @@ mod tests {
         let long = "quiet as a mouse in a box";
         let stated = Stated { config: None, flags: vec![flag("callback_secret", long)] };
         let config = load(&stated, []).unwrap();
-        let shown = SETTINGS.iter().map(|setting| (setting.get)(&config)).collect::<String>();
+        let shown = SETTINGS.iter().map(|setting| setting.get(&config)).collect::<String>();
         assert!(!format!("{config:?}{config:#?}{shown}").contains("quiet"));
     }
 

@@ -2,13 +2,15 @@
 
 mod load;
 mod setting;
+mod settings;
 
 use std::net::{Ipv4Addr, SocketAddr};
 
 use crate::api::ServerSettings;
 
 pub use load::{ConfigError, Source, Stated, load};
-pub use setting::{SETTINGS, Scope, Setting};
+pub use setting::{Scope, Setting};
+pub use settings::SETTINGS;
 
 use crate::telemetry::{Endpoint, LogFormat};
 

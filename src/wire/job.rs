@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use serde_json::value::RawValue;
+use serde_json::{Value, json};
 use utoipa::ToSchema;
 
 use super::answer::AnswerBody;
@@ -174,13 +175,7 @@ pub struct JobEventBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobsBody {
     /// In the order of the scenes.
-    #[schema(example = json!([{
-        "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",
-        "created_at": "2026-01-05T09:30:00.000Z", "started_at": null, "finished_at": null,
-        "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 3,
-        "scene_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08", "version": "0.1.0",
-        "incumbent": null, "result": null, "problem": null
-    }]))]
+    #[schema(example = one_queued)]
     pub jobs: Vec<JobBody>,
 }
 
@@ -188,15 +183,20 @@ pub struct JobsBody {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobListBody {
     /// The latest first, without their results.
-    #[schema(example = json!([{
+    #[schema(example = one_queued)]
+    pub jobs: Vec<JobBody>,
+    /// What to ask for the rest with, as `cursor`; null where there is no more.
+    #[schema(required = true, example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
+    pub next_cursor: Option<String>,
+}
+
+/// A list of jobs, for the interface document.
+fn one_queued() -> Value {
+    json!([{
         "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",
         "created_at": "2026-01-05T09:30:00.000Z", "started_at": null, "finished_at": null,
         "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 3,
         "scene_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08", "version": "0.1.0",
         "incumbent": null, "result": null, "problem": null
-    }]))]
-    pub jobs: Vec<JobBody>,
-    /// What to ask for the rest with, as `cursor`; null where there is no more.
-    #[schema(required = true, example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
-    pub next_cursor: Option<String>,
+    }])
 }

@@ -66,7 +66,7 @@ fn every_setting_is_listed_with_its_default() {
     for setting in SETTINGS {
         let default = match setting.name {
             "threads" | "job_threads" => "one per core".to_owned(),
-            _ => format!("`{}`", (setting.get)(&Config::default())),
+            _ => format!("`{}`", setting.get(&Config::default())),
         };
         let (flag, variable, key) = (setting.flag(), setting.variable(), setting.name);
         let row = format!("| `--{flag}` | `{variable}` | `{key}` | {default} | ");

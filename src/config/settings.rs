@@ -1,0 +1,271 @@
+//! Every setting, each once.
+
+use super::setting::{Scope, Setting, Value};
+use crate::telemetry;
+use crate::telemetry::LogFormat;
+
+/// The most threads, queue places and connections: far above any machine, far below what a typing error makes of them.
+const MAX_COUNT: u64 = 1_000_000;
+/// 1 GB.
+const MAX_BYTES: u64 = 1_000_000_000;
+
+/// Every setting.
+pub static SETTINGS: &[Setting] = &[
+    Setting {
+        name: "listen",
+        scope: Scope::Service,
+        placeholder: "ADDR:PORT",
+        help: "Where to listen; port 0 takes any free one",
+        value: Value::Other {
+            set: |config, text| {
+                config.listen =
+                    text.parse().map_err(|_| format!("'{text}' is not an address and port like 0.0.0.0:8080"))?;
+                Ok(())
+            },
+            get: |config| config.listen.to_string(),
+        },
+    },
+    Setting {
+        name: "threads",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Planning threads; one per core where nothing is said",
+        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.threads },
+    },
+    Setting {
+        name: "queue",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Requests that may wait for a planning thread; more are refused with 503",
+        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.queue },
+    },
+    Setting {
+        name: "max_connections",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Connections at a time; more wait to be accepted",
+        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.connections },
+    },
+    Setting {
+        name: "max_body_bytes",
+        scope: Scope::Service,
+        placeholder: "BYTES",
+        help: "The largest request body",
+        value: Value::Whole { least: 1, most: MAX_BYTES, field: |config| &mut config.server.max_body_bytes },
+    },
+    Setting {
+        name: "header_timeout_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a request's head may take",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.header_timeout },
+    },
+    Setting {
+        name: "body_timeout_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a request's body may take",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.body_timeout },
+    },
+    Setting {
+        name: "write_timeout_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a client may take nothing of an answer that waits for it",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.write_timeout },
+    },
+    Setting {
+        name: "jobs_url",
+        scope: Scope::Service,
+        placeholder: "URL",
+        help: "Where jobs are kept: sqlite:PATH, sqlite::memory: or postgres://…",
+        value: Value::Other {
+            set: |config, text| {
+                if !["sqlite:", "postgres:", "postgresql:"].iter().any(|scheme| text.starts_with(scheme)) {
+                    // The rest may hold a password.
+                    let scheme = text.split_once(':').map_or("", |(scheme, _)| scheme);
+                    return Err(format!("an address that begins with '{scheme}:' is neither sqlite: nor postgres:"));
+                }
+                text.clone_into(&mut config.server.jobs.url);
+                Ok(())
+            },
+            get: |config| config.server.jobs.url.clone(),
+        },
+    },
+    Setting {
+        name: "job_threads",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Planning threads for jobs; one per core where nothing is said",
+        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.jobs.threads },
+    },
+    Setting {
+        name: "max_queued_jobs",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Jobs that may wait in the store; more are refused with 503",
+        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.jobs.max_queued },
+    },
+    Setting {
+        name: "job_lease_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "For how long a worker that says nothing keeps its job",
+        // Below a second a busy machine would take jobs from workers that live.
+        value: Value::Milliseconds { least: 1000, field: |config| &mut config.server.jobs.lease },
+    },
+    Setting {
+        name: "job_ttl_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long a job may wait, and for how long an ended one is kept",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.jobs.ttl },
+    },
+    Setting {
+        name: "max_waiting",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Clients that may wait for the ends of jobs at a time",
+        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_waiting },
+    },
+    Setting {
+        name: "max_streams",
+        scope: Scope::Service,
+        placeholder: "N",
+        help: "Clients that may listen to the events of jobs at a time",
+        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_streams },
+    },
+    Setting {
+        name: "drain_ms",
+        scope: Scope::Service,
+        placeholder: "MS",
+        help: "How long what runs has to end once the service is asked to",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.drain },
+    },
+    Setting {
+        name: "callback_allow",
+        scope: Scope::Service,
+        placeholder: "HOSTS",
+        help: "Who may be told of a job's end: names, *.name, addresses, ranges; separated by commas",
+        value: Value::Other {
+            set: |config, text| {
+                config.server.jobs.callback_allow = text.parse()?;
+                Ok(())
+            },
+            get: |config| config.server.jobs.callback_allow.to_string(),
+        },
+    },
+    Setting {
+        name: "callback_secret",
+        scope: Scope::Service,
+        placeholder: "SECRET",
+        help: "What callbacks are signed with; better set by the variable, which other users can't list",
+        value: Value::Other {
+            set: |config, text| {
+                config.server.jobs.callback_secret = if text == "none" { None } else { Some(text.parse()?) };
+                Ok(())
+            },
+            get: |config| if config.server.jobs.callback_secret.is_some() { "hidden" } else { "none" }.to_owned(),
+        },
+    },
+    Setting {
+        name: "otlp_endpoint",
+        scope: Scope::Service,
+        placeholder: "URL|off",
+        help: "Where traces go: a collector of OTLP over HTTP, such as http://localhost:4318",
+        value: Value::Other {
+            set: |config, text| {
+                config.otlp_endpoint = if text == "off" { None } else { Some(text.parse()?) };
+                Ok(())
+            },
+            get: |config| config.otlp_endpoint.as_ref().map_or("off".to_owned(), ToString::to_string),
+        },
+    },
+    Setting {
+        name: "max_objects",
+        scope: Scope::Planning,
+        placeholder: "N",
+        help: "The most objects of a scene",
+        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.limits.scene.max_objects },
+    },
+    Setting {
+        name: "max_neighbours",
+        scope: Scope::Planning,
+        placeholder: "N",
+        help: "The most obstacles in reach of one grasp",
+        value: Value::Whole {
+            least: 1,
+            most: MAX_COUNT,
+            field: |config| &mut config.server.limits.scene.max_neighbours,
+        },
+    },
+    Setting {
+        name: "overlap_tolerance",
+        scope: Scope::Planning,
+        placeholder: "METRES",
+        help: "How deep two discs may overlap and still pass as perception noise",
+        value: Value::Number {
+            least: 0.0,
+            most: 1e3,
+            field: |config| &mut config.server.limits.scene.overlap_tolerance,
+        },
+    },
+    Setting {
+        name: "raster_resolution",
+        scope: Scope::Planning,
+        placeholder: "METRES",
+        help: "The side of a pixel where a scene asks for `placement: raster`",
+        value: Value::Number { least: 1e-6, most: 1e3, field: |config| &mut config.server.limits.raster_resolution },
+    },
+    Setting {
+        name: "default_time_limit_ms",
+        scope: Scope::Planning,
+        placeholder: "MS",
+        help: "The time limit of a scene that names none",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.limits.default_time_limit },
+    },
+    Setting {
+        name: "max_time_limit_ms",
+        scope: Scope::Planning,
+        placeholder: "MS",
+        help: "The longest time limit that a scene may name",
+        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.limits.max_time_limit },
+    },
+    Setting {
+        name: "log",
+        scope: Scope::Planning,
+        placeholder: "FILTER",
+        help: "Which log lines go to stderr, such as warn or info,singulate=debug",
+        value: Value::Other {
+            set: |config, text| {
+                telemetry::filter(text)?;
+                text.clone_into(&mut config.log);
+                Ok(())
+            },
+            get: |config| config.log.clone(),
+        },
+    },
+    Setting {
+        name: "log_format",
+        scope: Scope::Planning,
+        placeholder: "text|json",
+        help: "How log lines are written",
+        value: Value::Other {
+            set: |config, text| {
+                config.log_format = match text {
+                    "text" => LogFormat::Text,
+                    "json" => LogFormat::Json,
+                    _ => return Err(format!("'{text}' is neither text nor json")),
+                };
+                Ok(())
+            },
+            get: |config| {
+                let word = match config.log_format {
+                    LogFormat::Text => "text",
+                    LogFormat::Json => "json",
+                };
+                word.to_owned()
+            },
+        },
+    },
+];
