@@ -5,7 +5,7 @@
 //! [`paper`]'s own methods; the [`plan`] that couples these and its independent checker. Round that pure core lie the
 //! edges: [`wire`] knows JSON, [`workers`] threads, [`jobs`] what outlives them, [`api`] HTTP, [`render`] drawings, [`experiments`] made-up scenes and the
 //! paper's tables, [`metrics`] what is counted and timed, [`traces`] which call led to what, [`cli`] the command line,
-//! [`config`] its settings and [`telemetry`] where log lines and traces go.
+//! [`config`] its settings, [`watched_files`] what may be replaced meanwhile, and [`telemetry`] where log lines and traces go.
 
 pub mod api;
 pub mod budget;
@@ -24,5 +24,6 @@ pub mod scene;
 pub mod search;
 pub mod telemetry;
 pub mod traces;
+pub mod watched_files;
 pub mod wire;
 pub mod workers;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms, lowest first: each may name those before it, none may name one after it.
-const ROOMS: [&str; 19] = [
+const ROOMS: [&str; 20] = [
     "budget",
     "scene",
     "geometry",
@@ -20,6 +20,7 @@ const ROOMS: [&str; 19] = [
     "wire",
     "metrics",
     "traces",
+    "watched_files",
     "workers",
     "jobs",
     "api",
