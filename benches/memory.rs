@@ -12,7 +12,7 @@ use std::process::{Command, ExitCode};
 
 use singulate::budget::Budget;
 use singulate::experiments::Recipe;
-use singulate::plan::{PlanError, Verdict, plan};
+use singulate::plan::{PlanError, plan};
 use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 
