@@ -42,10 +42,10 @@ void print_ids(const char* verdict, const std::vector<std::string>& ids, const c
 
 /// Stands for the robot: a real one picks and places here, and its camera says where the object came to lie.
 void relocate(Scene& scene, const Relocation& step) {
+  scene.place(step.object, step.to);
   std::cout << "move " << step.object << " from " << decimals(step.from.x) << ' ' << decimals(step.from.y) << " to "
             << decimals(step.to.x) << ' ' << decimals(step.to.y) << ", grasp at " << decimals(step.grasp_yaw)
             << ", release at " << decimals(step.release_yaw) << '\n';
-  scene.place(step.object, step.to);
 }
 
 /// What to do about each verdict. Says how the client ends, or nothing while there is more to do.
