@@ -14,7 +14,7 @@ setup(
     package_data={PACKAGE: ["py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
-        (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}", ["package.xml", "example.yaml"]),
     ],
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from typing import TYPE_CHECKING, Callable
 
@@ -29,6 +30,8 @@ def plan(
 
     Asks the service at SINGULATE_URL with the key in SINGULATE_KEY: not parameters, which any node can read.
     """
+    if not math.isfinite(settings.tool_z):
+        raise Failure("the parameter tool_z is not set")
     stamp = detections.header.stamp
     age = now.sec - stamp.sec + 1e-9 * (now.nanosec - stamp.nanosec)
     if age > settings.max_age:

@@ -11,7 +11,7 @@ from vision_msgs.msg import BoundingBox3D, Detection3D, Detection3DArray, Object
 from singulate_ros.settings import Settings
 
 HEADER = Header(frame_id="world")
-SETTINGS = Settings(target="cup")
+SETTINGS = Settings(target="cup", fingers=3, finger_width=0.02, clearance=0.05, tool_z=0.92)
 
 
 def pose(x: float, y: float, z: float, orientation: Quaternion | None = None) -> Pose:

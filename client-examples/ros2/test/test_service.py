@@ -7,6 +7,7 @@ import socket
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from threading import Thread
 from typing import Any
@@ -20,6 +21,7 @@ from singulate_ros import service
 from singulate_ros.failure import Failure
 from singulate_ros.mapping import to_scene
 from singulate_ros.planning import plan
+from singulate_ros.settings import Settings
 
 SCENE = to_scene(detections(), planning_scene(table(), vase()), SETTINGS)
 GRASPABLE: dict[str, Any] = {"verdict": "graspable", "relocations": [], "target_grasp": {"yaw": 0.25}}
@@ -140,7 +142,14 @@ def test_messages_become_poses_by_way_of_the_service(monkeypatch: pytest.MonkeyP
         monkeypatch.setenv("SINGULATE_KEY", "sgl_key")
         poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time(), Pose)
     assert (stage.bodies, stage.keys) == ([SCENE], ["Bearer sgl_key"])
-    assert ([(pose.position.x, pose.position.y) for pose in poses], words) == ([(0.4, 0.25)], "grasp")
+    assert [(pose.position.x, pose.position.y, pose.position.z) for pose in poses] == [(0.4, 0.25, 0.92)]
+    assert words == "grasp"
+
+
+def test_a_tool_of_no_known_height_is_not_sent_anywhere() -> None:
+    unset = replace(SETTINGS, tool_z=Settings().tool_z)
+    with pytest.raises(Failure, match="tool_z is not set"):
+        plan(detections(), planning_scene(table()), unset, Time(), Pose)
 
 
 def test_old_detections_are_not_planned_with() -> None:
