@@ -8,7 +8,10 @@ import { isFields, type Fields } from "./json.js";
 const defaultTimeLimitMs = 1_000;
 const longestTimeLimitMs = 60_000;
 
-/** The table as the client knows it, in the words of the request. Any JSON will do: what makes a scene is for the service to say. */
+/**
+ * The table as the client knows it, in the words of the request. Any JSON will do: what makes a scene is for the service
+ * to say.
+ */
 export class Scene {
   private constructor(private readonly document: unknown) {}
 
