@@ -3,6 +3,7 @@
 mod accept;
 mod app;
 mod body;
+mod certificate;
 mod connections;
 mod docs;
 mod document;
@@ -19,7 +20,9 @@ mod refusal;
 mod router;
 pub mod server;
 mod settings;
+mod socket;
 mod survey;
+mod transport;
 mod verification;
 
 pub use app::App;

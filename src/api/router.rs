@@ -10,7 +10,9 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::app::App;
-use super::{docs, document, edge, jobs, knowledge, metrics, plans, probes, problem, survey, verification};
+use super::{
+    certificate, docs, document, edge, jobs, knowledge, metrics, plans, probes, problem, survey, verification,
+};
 
 /// The routes that the interface document describes.
 pub(super) fn routes() -> OpenApiRouter<Arc<App>> {
@@ -41,6 +43,7 @@ pub fn router(app: Arc<App>) -> Router {
         .fallback(problem::not_found)
         .method_not_allowed_fallback(problem::method_not_allowed)
         .layer(CatchPanicLayer::custom(problem::panicked))
+        .layer(from_fn_with_state(Arc::clone(&app), certificate::each_request))
         .layer(from_fn_with_state(Arc::clone(&app), edge::each_request))
         .with_state(app)
 }

@@ -1,6 +1,7 @@
 //! `singulate serve`.
 
 use std::net::SocketAddr;
+use std::path::Path;
 
 use clap::Args;
 use tokio::net::TcpListener;
@@ -10,6 +11,7 @@ use super::{Failure, open_files, output};
 use crate::api;
 use crate::config::{self, Config};
 use crate::telemetry;
+use crate::tls::TlsSettings;
 
 /// A plate between two others and a fixed vase: small enough for one line, and something has to move.
 const SCENE: &str = include_str!("example.json");
@@ -46,7 +48,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let listen = listener.local_addr().map_err(broken)?;
     config.server.connections = open_files::room_for(config.server.connections);
     tracing::info!(%listen, threads = config.server.threads, "serving");
-    output::print(&greeting(listen))?;
+    output::print(&greeting(listen, &config.server.tls))?;
     api::run(listener, config.server, shutdown).await.map_err(broken)
 }
 
@@ -75,15 +77,25 @@ fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
 /// What a shell adds to the number of the signal that ended a process.
 const KILLED: i32 = 128;
 
-fn greeting(listen: SocketAddr) -> String {
+fn greeting(listen: SocketAddr, tls: &TlsSettings) -> String {
     let host = if listen.ip().is_unspecified() { "localhost".to_owned() } else { listen.ip().to_string() };
     let host = if listen.is_ipv6() && host.contains(':') { format!("[{host}]") } else { host };
-    let url = format!("http://{host}:{}", listen.port());
+    let (scheme, trust) = match &tls.cert {
+        Some(cert) => ("https", format!(" --cacert {}", quoted(cert))),
+        None => ("http", String::new()),
+    };
+    let own = if tls.client_ca.is_some() { " --cert YOUR-CERTIFICATE --key YOUR-KEY" } else { "" };
+    let url = format!("{scheme}://{host}:{}", listen.port());
     let scene = SCENE.trim();
     format!(
         "singulate listens on {url} (interface: {url}/docs). Try:\n\n\
-         curl -s {url}/v1/plans -H 'content-type: application/json' -d '{scene}'\n\n"
+         curl -s{trust}{own} {url}/v1/plans -H 'content-type: application/json' -d '{scene}'\n\n"
     )
+}
+
+/// One word of a shell.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }
 
 #[cfg(test)]
@@ -100,8 +112,17 @@ mod tests {
 
     #[test]
     fn the_greeting_names_an_address_that_curl_can_reach() {
-        let line = |listen: &str| greeting(listen.parse().unwrap());
+        let line = |listen: &str| greeting(listen.parse().unwrap(), &TlsSettings::default());
         assert!(line("0.0.0.0:80").contains("curl -s http://localhost:80/v1/plans"));
         assert!(line("[::1]:80").contains("curl -s http://[::1]:80/v1/plans"));
+    }
+
+    #[test]
+    fn the_greeting_of_tls_names_the_certificate_in_words_that_a_shell_takes() {
+        let mut tls = TlsSettings { cert: Some("it's here.pem".into()), ..TlsSettings::default() };
+        let line = |tls: &TlsSettings| greeting("127.0.0.1:80".parse().unwrap(), tls);
+        assert!(line(&tls).contains(r"curl -s --cacert 'it'\''s here.pem' https://127.0.0.1:80/v1/plans"));
+        tls.client_ca = Some("clients.pem".into());
+        assert!(line(&tls).contains(" --cert YOUR-CERTIFICATE --key YOUR-KEY https://127.0.0.1:80/v1/plans"));
     }
 }

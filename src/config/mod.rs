@@ -13,6 +13,7 @@ pub use setting::{Scope, Setting};
 pub use settings::SETTINGS;
 
 use crate::telemetry::{Endpoint, LogFormat};
+use crate::tls::Certificates;
 
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,13 +34,14 @@ impl Config {
     /// What a service needs beyond settings that are sound one by one.
     ///
     /// # Errors
-    /// What is missing.
+    /// What is missing, or does not fit together.
     pub fn check_service(&self) -> Result<(), ConfigError> {
         let jobs = &self.server.jobs;
         if !jobs.callback_allow.is_empty() && jobs.callback_secret.is_none() {
             let fault = "callback_allow needs callback_secret: a receiver could not tell our callbacks from others'";
             return Err(ConfigError(vec![fault.to_owned()]));
         }
+        Certificates::read(&self.server.tls).map_err(|error| ConfigError(vec![error.to_string()]))?;
         Ok(())
     }
 }

@@ -1,11 +1,15 @@
 //! What a setting is, whatever it is set by.
 
 use core::time::Duration;
+use std::path::PathBuf;
 
 use super::Config;
 
 /// A day. A longer time is a typing error.
 const MAX_MS: u64 = 86_400_000;
+
+/// What stands for no file.
+const NO_FILE: &str = "none";
 
 /// Who needs a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +44,8 @@ pub(super) enum Value {
     Number { least: f64, most: f64, field: fn(&mut Config) -> &mut f64 },
     /// A time, up to a day.
     Milliseconds { least: u64, field: fn(&mut Config) -> &mut Duration },
+    /// A file, or none.
+    File { field: fn(&mut Config) -> &mut Option<PathBuf> },
     /// Something of its own: how it is read, and how it is shown.
     Other { set: fn(&mut Config, &str) -> Result<(), String>, get: fn(&Config) -> String },
 }
@@ -70,6 +76,7 @@ impl Setting {
                 *field(config) = value.ok_or_else(|| format!("'{text}' is not a number from {least} to {most}"))?;
             }
             Value::Milliseconds { least, field } => *field(config) = Duration::from_millis(whole(text, least, MAX_MS)?),
+            Value::File { field } => *field(config) = (text != NO_FILE).then(|| PathBuf::from(text)),
             Value::Other { set, .. } => set(config, text)?,
         }
         Ok(())
@@ -82,6 +89,9 @@ impl Setting {
             Value::Whole { field, .. } => field(&mut config).to_string(),
             Value::Number { field, .. } => field(&mut config).to_string(),
             Value::Milliseconds { field, .. } => field(&mut config).as_millis().to_string(),
+            Value::File { field } => {
+                field(&mut config).as_ref().map_or(NO_FILE.to_owned(), |path| path.display().to_string())
+            }
             Value::Other { get, .. } => get(&config),
         }
     }

@@ -26,6 +26,27 @@ pub static SETTINGS: &[Setting] = &[
         },
     },
     Setting {
+        name: "tls_cert",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
+        value: Value::File { field: |config| &mut config.server.tls.cert },
+    },
+    Setting {
+        name: "tls_key",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The certificate's private key, PEM",
+        value: Value::File { field: |config| &mut config.server.tls.key },
+    },
+    Setting {
+        name: "tls_client_ca",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The authorities of clients, PEM; each then needs a certificate of theirs",
+        value: Value::File { field: |config| &mut config.server.tls.client_ca },
+    },
+    Setting {
         name: "threads",
         scope: Scope::Service,
         placeholder: "N",

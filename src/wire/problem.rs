@@ -30,6 +30,9 @@ pub enum ProblemKind {
     /// The body is JSON, but not a request that can be answered.
     #[serde(rename = "urn:singulate:problem:invalid_request")]
     InvalidRequest,
+    /// No valid key or client certificate came with the request.
+    #[serde(rename = "urn:singulate:problem:unauthorized")]
+    Unauthorized,
     /// Nothing lives at this path.
     #[serde(rename = "urn:singulate:problem:not_found")]
     NotFound,
@@ -96,6 +99,7 @@ impl ProblemKind {
             Self::MalformedJson => (400, "The body is not JSON"),
             Self::BrokenBody => (400, "The body is incomplete"),
             Self::MalformedHttp => (400, "The request is not HTTP"),
+            Self::Unauthorized => (401, "Not authorized"),
             Self::NotFound => (404, "Nothing lives at this path"),
             Self::MethodNotAllowed => (405, "The method is not allowed here"),
             Self::NotAcceptable => (406, "No acceptable representation"),
