@@ -80,3 +80,28 @@ impl AsyncWrite for Socket {
         Pin::new(&mut self.stream).poll_shutdown(context)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tokio::io::{AsyncWriteExt, BufWriter};
+    use tokio::net::TcpListener;
+
+    use super::*;
+
+    #[tokio::test]
+    async fn bytes_that_something_above_holds_back_are_not_waited_for_either() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let silent = TcpStream::connect(listener.local_addr().unwrap()).await.unwrap();
+        let socket = Socket::new(listener.accept().await.unwrap().0, Duration::from_millis(50));
+        // Takes what is written at once and brings it to the socket when it is flushed, as TLS does.
+        let mut above = BufWriter::with_capacity(100_000, socket);
+        let stuck = loop {
+            above.write_all(&[0; 50_000]).await.unwrap();
+            if let Err(error) = above.flush().await {
+                break error;
+            }
+        };
+        assert_eq!(stuck.kind(), ErrorKind::TimedOut);
+        drop(silent);
+    }
+}

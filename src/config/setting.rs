@@ -76,6 +76,7 @@ impl Setting {
                 *field(config) = value.ok_or_else(|| format!("'{text}' is not a number from {least} to {most}"))?;
             }
             Value::Milliseconds { least, field } => *field(config) = Duration::from_millis(whole(text, least, MAX_MS)?),
+            Value::File { .. } if text.is_empty() => return Err(format!("'' is no file; '{NO_FILE}' stands for none")),
             Value::File { field } => *field(config) = (text != NO_FILE).then(|| PathBuf::from(text)),
             Value::Other { set, .. } => set(config, text)?,
         }
@@ -122,9 +123,10 @@ mod tests {
         for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = setting.set(&mut Config::default(), text);
-                // A host may be called so.
+                // A host may be called so, and a file may be called anything.
                 let host = setting.name == "callback_allow" && text == "1e99";
-                assert!(outcome.is_err() || setting.name == "log" || host, "{} takes '{text}'", setting.name);
+                let file = matches!(setting.value, Value::File { .. }) && !text.is_empty();
+                assert!(outcome.is_err() || setting.name == "log" || host || file, "{} takes '{text}'", setting.name);
             }
         }
     }

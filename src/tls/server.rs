@@ -108,3 +108,94 @@ fn fingerprint(certificate: &CertificateDer<'_>) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use rcgen::{CertificateParams, KeyPair, generate_simple_self_signed};
+
+    use super::*;
+
+    /// A certificate and its key, PEM.
+    fn pair() -> (String, String) {
+        let own = generate_simple_self_signed(["localhost".to_owned()]).unwrap();
+        (own.cert.pem(), own.signing_key.serialize_pem())
+    }
+
+    fn fault(files: &[&str]) -> String {
+        let paths = ["cert.pem", "key.pem", "clients.pem"].map(PathBuf::from);
+        let contents: Vec<Vec<u8>> = files.iter().map(|text| text.as_bytes().to_vec()).collect();
+        Server::new(&paths[..files.len()], &contents).map_or_else(|error| error.to_string(), |_| String::new())
+    }
+
+    #[test]
+    fn a_key_that_is_not_the_certificates_is_refused_and_so_is_what_is_no_certificate_or_key() {
+        let ((cert, key), (other_cert, other_key)) = (pair(), pair());
+        assert_eq!(fault(&[&cert, &key]), "");
+        assert_eq!(fault(&[&cert, &key, &other_cert]), "");
+        // Both in one file, and a chain, of which the first is the service's.
+        assert_eq!(fault(&[&format!("{key}{cert}{other_cert}"), &format!("{cert}{key}")]), "");
+        assert!(fault(&[&format!("{other_cert}{cert}"), &key]).starts_with("key.pem: with cert.pem: "));
+        assert!(fault(&[&cert, &other_key]).starts_with("key.pem: with cert.pem: "));
+        let broken = cert.replace("MII", "MIX");
+        for (files, start) in [
+            (&[key.as_str(), &key][..], "cert.pem: no certificate"),
+            (&["", &key], "cert.pem: no certificate"),
+            (&[&cert[..200], &key], "cert.pem: no certificate"),
+            (&[&broken, &key], "key.pem: with cert.pem: "),
+            (&[&cert, &cert], "key.pem: no private key"),
+            (&[&cert, ""], "key.pem: no private key"),
+            (&[&cert, &key, ""], "clients.pem: no certificate"),
+            (&[&cert, &key, &key], "clients.pem: no certificate"),
+            (&[&cert, &key, &broken], "clients.pem: "),
+        ] {
+            let fault = fault(files);
+            assert!(fault.starts_with(start), "{start}: {fault}");
+        }
+    }
+
+    #[test]
+    fn no_fault_shows_a_line_of_a_key() {
+        let (cert, key) = pair();
+        let secret: String = key.lines().filter(|line| !line.starts_with('-')).collect();
+        let one_line = key.replace('\n', "");
+        let garbled = key.replace("PRIVATE KEY-----\n", &format!("PRIVATE KEY-----{}", &secret[..40]));
+        let shortened = format!("-----BEGIN PRIVATE KEY-----\n{}\n-----END PRIVATE KEY-----\n", &secret[..80]);
+        for broken in [one_line, garbled, shortened] {
+            for files in [&[cert.as_str(), &broken][..], &[&broken, &key], &[&cert, &key, &broken]] {
+                let fault = fault(files);
+                assert!(!fault.is_empty(), "{broken}");
+                assert!(
+                    secret.as_bytes().chunks(8).all(|part| !fault.contains(str::from_utf8(part).unwrap())),
+                    "{fault}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_key_may_be_written_as_openssl_wrote_keys_of_curves_before_pkcs8() {
+        let key = KeyPair::generate().unwrap();
+        let cert = CertificateParams::new(["localhost".to_owned()]).unwrap().self_signed(&key).unwrap();
+        // PKCS#8 is a key as SEC1 has it, in an envelope: the last of its parts but for what may follow.
+        let pkcs8 = key.serialize_der();
+        let at = pkcs8.windows(5).position(|bytes| bytes[0] == 0x30 && bytes[2..] == [2, 1, 1]).unwrap();
+        let sec1 = &pkcs8[at..at + 2 + usize::from(pkcs8[at + 1])];
+        let mut files = vec![cert.pem().into_bytes(), Vec::new()];
+        files[1] = pem("EC PRIVATE KEY", sec1).into_bytes();
+        Server::new(&["cert.pem".into(), "key.pem".into()], &files).unwrap();
+    }
+
+    /// A section of PEM.
+    fn pem(label: &str, der: &[u8]) -> String {
+        const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        let mut text = String::new();
+        for three in der.chunks(3) {
+            let bits = three.iter().fold(0, |bits, byte| bits << 8 | usize::from(*byte)) << (8 * (3 - three.len()));
+            for place in 0..4 {
+                let digit = char::from(DIGITS[bits >> (18 - 6 * place) & 63]);
+                text.push(if place <= three.len() { digit } else { '=' });
+            }
+        }
+        format!("-----BEGIN {label}-----\n{text}\n-----END {label}-----\n")
+    }
+}

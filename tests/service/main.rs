@@ -16,3 +16,4 @@ mod knowledge;
 mod metrics;
 mod negotiation;
 mod planning;
+mod tls;
