@@ -11,6 +11,7 @@ mod readme;
 mod scenes;
 mod service;
 mod settings;
+mod tls;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
