@@ -42,7 +42,7 @@ class Case:
 
 def answer(verdict: str, **parts: Any) -> Canned:
     empty = dict.fromkeys(("target_grasp", "cost", "lower_bound", "optimal", "landmarks", "deadlock", "needed"))
-    whole = {"verdict": verdict, "scene_id": None, "target": "cup", "relocations": [], **empty, "warnings": []}
+    whole: dict[str, Any] = {"verdict": verdict, "scene_id": None, "target": "cup", "relocations": [], **empty, "warnings": []}
     return Canned(200, {**whole, "statistics": STATISTICS, **parts})
 
 

@@ -78,7 +78,7 @@ class Service:
 
 
 def _pause(tried: int) -> float:
-    return FIRST_PAUSE * 2 ** (tried - 1)
+    return FIRST_PAUSE * 2.0 ** (tried - 1)
 
 
 def _retry_after(header: str | None) -> float:
