@@ -11,6 +11,8 @@ from typing import Any
 from faults import Canned, CutOff, Drip, Pass, Proxy, Request, Reset, Step
 
 SCENES = Path(__file__).parent / "scenes"
+INVALID = SCENES / "invalid.json"
+WRONG_KEY = "sgl_" + 43 * "x"
 STATISTICS = {"knowledge_ms": 0.0, "search_ms": 0.0, "placement_ms": 0.0, "check_ms": 0.0}
 STEP = {
     "action": "pick_place",
@@ -41,9 +43,9 @@ class Case:
 
 
 def answer(verdict: str, **parts: Any) -> Canned:
-    empty = dict.fromkeys(("target_grasp", "cost", "lower_bound", "optimal", "landmarks", "deadlock", "needed"))
-    whole: dict[str, Any] = {"verdict": verdict, "scene_id": None, "target": "cup", "relocations": [], **empty, "warnings": []}
-    return Canned(200, {**whole, "statistics": STATISTICS, **parts})
+    nothing = ("scene_id", "target_grasp", "cost", "lower_bound", "optimal", "landmarks", "deadlock", "needed")
+    whole = {"verdict": verdict, "target": "cup", "relocations": [], "warnings": [], "statistics": STATISTICS}
+    return Canned(200, {**whole, **dict.fromkeys(nothing), **parts})
 
 
 def problem(status: int, kind: str, title: str, **headers: str) -> Canned:
@@ -52,12 +54,17 @@ def problem(status: int, kind: str, title: str, **headers: str) -> Canned:
     return Canned(status, body, {"content-type": "application/problem+json", **named})
 
 
-def scene_cases(faults_of: Callable[[Path], str]) -> Iterator[Case]:
-    """Every scene against the service itself."""
+def scene_cases(refusal: Any) -> Iterator[Case]:
+    """Every scene against the service itself, which refuses one of them."""
+    faults = "".join(f"{fault['code']} {fault['pointer']}: {fault['detail']}\n" for fault in refusal["errors"])
     for path in sorted(SCENES.glob("*.json")):
         *lines, end = (SCENES / "expected" / f"{path.stem}.txt").read_text().splitlines(keepends=True)
         status = int(end.removeprefix("exit "))
-        yield Case(path.stem, path, "".join(lines), status, faults_of(path) if status == 2 else "")
+        yield Case(path.stem, path, "".join(lines), status, faults if path == INVALID else "")
+
+
+def wrong_key_case(refusal: Any) -> Case:
+    return Case("wrong key", SCENES / "one-move.json", "", 6, refusal["title"], key=WRONG_KEY)
 
 
 @contextmanager
@@ -100,17 +107,18 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     yield Case("unknown object", one_move, "", 1, "ghost", proxy(then=ghost), check=counted(1))
     torn = Canned(200, {"verdict": "graspable", "target": "cup"})
     yield Case("torn answer", one_move, "", 1, server=proxy(then=torn), check=counted(1))
-    yield Case("wrong key", one_move, "", 6, "nauthorized", key="sgl_" + 43 * "x")
     forbidden = problem(403, "forbidden", "Not with this key")
     yield Case("forbidden", one_move, "", 6, "Not with this key", proxy(then=forbidden), check=counted(1))
     broken = problem(500, "internal", "A fault of ours")
     yield Case("fault of ours", one_move, "", 1, "A fault of ours", proxy(then=broken), check=counted(1))
     late = answer("timed_out", needed=["a", "b"])
-    yield Case("timed out", one_move, "timed out: a, b would have to go\n", 5, server=proxy(then=late), check=limits(10_000))
+    told = "timed out: a, b would have to go\n"
+    yield Case("timed out", one_move, told, 5, server=proxy(then=late), check=limits(None, 10_000))
     patient, unknown = scene("patient", time_limit_ms=20_000), answer("timed_out")
-    yield Case("timed out, nothing known", patient, "timed out\n", 5, server=proxy(then=unknown), check=limits(60_000))
+    capped = limits(20_000, 60_000)
+    yield Case("timed out, nothing known", patient, "timed out\n", 5, server=proxy(then=unknown), check=capped)
     twice = proxy(late, free)
-    yield Case("in time at last", one_move, "grasp cup at 0.500\n", 0, server=twice, check=limits(10_000))
+    yield Case("in time at last", one_move, "grasp cup at 0.500\n", 0, server=twice, check=limits(None, 10_000))
     endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=grasp))
     yield Case("a hundred rounds", one_move, 100 * MOVE, 1, server=endless, check=hundred_rounds)
 
@@ -136,10 +144,11 @@ def five_tries(requests: list[Request]) -> str | None:
     return "without Retry-After it waits less than a second" if min(pauses, default=0) < 1 else counted(5)(requests)
 
 
-def limits(longer: int) -> Callable[[list[Request]], str | None]:
+def limits(first: int | None, longer: int) -> Callable[[list[Request]], str | None]:
+    """Two asks; the first by what the scene names, if anything."""
+
     def check(requests: list[Request]) -> str | None:
         sent = [request.body.get("settings", {}).get("time_limit_ms") for request in requests]
-        first = None if longer == 10_000 else 20_000
         return None if sent == [first, longer] else f"time limits {sent}, not {[first, longer]}"
 
     return check

@@ -117,7 +117,7 @@ def hand_in(client: AuthenticatedClient, scene: dict[str, Any]) -> None:
 
 
 def events(client: AuthenticatedClient, job: str) -> list[str]:
-    """The generator takes a stream for one JSON body, so its client is borrowed for the call and the lines are read here."""
+    """The generator takes a stream for one JSON body: its client lends its connection, and the lines are read here."""
     url = f"/v1/jobs/{job}/events"
     with client.get_httpx_client().stream("GET", url) as response:
         response.raise_for_status()
