@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "what fails here fails the test")]
 
+mod client_scenes;
 mod commands;
 mod experiments;
 #[path = "../service/hard.rs"]
