@@ -54,11 +54,10 @@ class Composition:
 @contextmanager
 def up(file: str) -> Iterator[Composition]:
     """Bring a compose file up, on free ports and with the secrets; away with it and its volumes in the end."""
-    # Whether the services wait for each other as they should shows in that nothing has to be repeated here.
     os.environ.update(SECRETS=SECRETS, PUBLISH="127.0.0.1:0", PUBLISH_PROMETHEUS="127.0.0.1:0")
     composition = Composition(file)
     try:
-        composition.compose("up", "--detach", "--no-build")
+        composition.compose("up", "--detach")
         yield composition
     except BaseException:
         subprocess.run([*composition.command, "logs", "--no-color", "--tail", "50"], stdout=sys.stderr)
@@ -76,7 +75,7 @@ def check_one_machine() -> None:
         assert ask(url + "/v1/plans", readme_scene()).status == 401
         job = ask(url + "/v1/jobs", readme_scene(), key).json()["id"]
         # The volume outlives the container.
-        one.compose("up", "--detach", "--no-build", "--force-recreate")
+        one.compose("up", "--detach", "--force-recreate")
         name = one.container("singulate")
         healthy(name)
         url = f"{one.published('singulate', 8080)}/v1/jobs/{job}"
