@@ -60,7 +60,7 @@ def up(file: str) -> Iterator[Composition]:
         composition.compose("up", "--detach")
         yield composition
     except BaseException:
-        subprocess.run([*composition.command, "logs", "--no-color", "--tail", "50"], stdout=sys.stderr)
+        subprocess.run([*composition.command, "logs", "--no-color", "--tail", "50"], check=False, stdout=sys.stderr)
         raise
     finally:
         composition.compose("down", "--volumes")

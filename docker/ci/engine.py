@@ -1,5 +1,6 @@
 """The Docker Engine, and what runs in it, as the checks ask them."""
 
+import http.client
 import json
 import os
 import subprocess
@@ -42,10 +43,10 @@ def ask(url: str, body: Any = None, key: str | None = None, headers: dict[str, s
         return Reply(error.code, error.read().decode())
 
 
-def run(*command: str, check: bool = True) -> subprocess.CompletedProcess[str]:
-    """A command; where it fails, its output is shown."""
-    done = subprocess.run(command, capture_output=True, text=True)
-    if check and done.returncode != 0:
+def run(*command: str) -> subprocess.CompletedProcess[str]:
+    """A command that has to succeed; where it fails, its output is shown."""
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    if done.returncode != 0:
         raise AssertionError(f"{command} ended with {done.returncode}\n{done.stdout}{done.stderr}")
     return done
 
@@ -66,6 +67,11 @@ def logs(container: str) -> str:
     return done.stdout + done.stderr
 
 
+def url(container: str, scheme: str = "http") -> str:
+    """Where this machine reaches a container's service."""
+    return f"{scheme}://" + docker("port", container, "8080/tcp").splitlines()[0]
+
+
 def resident_mb(container: str) -> float:
     """The memory that the container's process holds, MB."""
     with open(f"/proc/{inspect(container, '.State.Pid')}/status") as status:
@@ -82,7 +88,7 @@ def until(condition: Callable[[], Any], what: str) -> Any:
             last = condition()
             if last:
                 return last
-        except OSError as error:
+        except (OSError, http.client.HTTPException) as error:
             last = error
         assert time.monotonic() < end, f"not in time: {what}; last: {last!r}"
         time.sleep(0.2)

@@ -2,14 +2,16 @@
 
 import os
 import re
+import ssl
 import sys
 import tempfile
 import time
+import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 
-from engine import ask, docker, healthy, inspect, logs, readme_scene, resident_mb, run, until
+from engine import ask, docker, healthy, inspect, logs, readme_scene, resident_mb, run, until, url
 
 IMAGE = "singulate:0.1.0"
 MAX_IMAGE_BYTES = 25_000_000
@@ -32,11 +34,6 @@ def container(*arguments: str, command: tuple[str, ...] = ()) -> Iterator[str]:
         docker("rm", "--force", "--volumes", name)
 
 
-def url(name: str) -> str:
-    """Where a container answers."""
-    return "http://" + docker("port", name, "8080/tcp").splitlines()[0]
-
-
 def plans(name: str, key: str | None = None) -> None:
     """The README's scene is planned."""
     reply = ask(url(name) + "/v1/plans", readme_scene(), key)
@@ -45,7 +42,7 @@ def plans(name: str, key: str | None = None) -> None:
 
 def ends_well(name: str) -> float:
     """Asked to end, it ends with status 0 and in time."""
-    begin = datetime.now(timezone.utc)
+    begin = datetime.now(UTC)
     docker("kill", "--signal", "TERM", name)
     assert docker("wait", name) == "0", logs(name)
     end = re.sub(r"\.(\d{6})\d*Z", r".\1+00:00", inspect(name, ".State.FinishedAt"))
@@ -122,8 +119,25 @@ def check_insecure() -> None:
         docker("volume", "rm", volume)
 
 
+def check_tls() -> None:
+    """By TLS too, the engine's probe finds its way."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.chmod(folder, 0o755)
+        certificate = ["-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2"]
+        names = ["-subj", "/CN=singulate", "-addext", "subjectAltName=IP:127.0.0.1", "-addext", "basicConstraints=critical,CA:FALSE"]
+        run("openssl", "req", *certificate, *names, "-keyout", f"{folder}/key.pem", "-out", f"{folder}/certificate.pem")
+        os.chmod(f"{folder}/key.pem", 0o644)
+        files = ["--env", "SINGULATE_TLS_CERT=/tls/certificate.pem", "--env", "SINGULATE_TLS_KEY=/tls/key.pem"]
+        with container("--volume", f"{folder}:/tls:ro", *files, "--env", "SINGULATE_INSECURE=true") as name:
+            healthy(name)
+            trusted = ssl.create_default_context(cafile=f"{folder}/certificate.pem")
+            with urllib.request.urlopen(url(name, "https") + "/readyz", context=trusted) as response:
+                assert response.status == 200
+            ends_well(name)
+
+
 if __name__ == "__main__":
-    for check in (check_contents, check_refusal, check_keys, check_insecure):
+    for check in (check_contents, check_refusal, check_keys, check_insecure, check_tls):
         begin = time.monotonic()
         check()
         print(f"{check.__name__}: well, {time.monotonic() - begin:.0f} s")
