@@ -6,6 +6,7 @@ mod commands;
 mod experiments;
 #[path = "../service/hard.rs"]
 mod hard;
+mod keys;
 mod readme;
 mod scenes;
 mod service;
