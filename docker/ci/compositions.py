@@ -66,6 +66,25 @@ def up(file: str) -> Iterator[Composition]:
         composition.compose("down", "--volumes")
 
 
+def check_rotation(url: str, job: str) -> None:
+    """A second key of the robots holds as soon as the file has it, sees the robots' jobs, and ends with its entry."""
+    path = os.path.join(SECRETS, "api-keys.toml")
+    with open(path) as file:
+        before = file.read()
+    key, entry = docker("run", "--rm", "singulate:0.1.0", "key", "new", "robots").split("\n\n", 1)
+
+    def status() -> int:
+        return ask(f"{url}/v1/jobs/{job}", key=key).status
+
+    assert status() == 401
+    with open(path, "a") as file:
+        file.write(f"\n{entry}\n")
+    until(lambda: status() == 200, "the new key holds")
+    with open(path, "w") as file:
+        file.write(before)
+    until(lambda: status() == 401, "the new key has ended")
+
+
 def check_one_machine() -> None:
     key = secret("robots-key")
     with up("compose.yaml") as one:
@@ -78,8 +97,9 @@ def check_one_machine() -> None:
         one.compose("up", "--detach", "--force-recreate")
         name = one.container("singulate")
         healthy(name)
-        url = f"{one.published('singulate', 8080)}/v1/jobs/{job}"
-        until(lambda: ask(url, key=key).json()["state"] == "succeeded", "the job has succeeded")
+        url = one.published("singulate", 8080)
+        until(lambda: ask(f"{url}/v1/jobs/{job}", key=key).json()["state"] == "succeeded", "the job has succeeded")
+        check_rotation(url, job)
 
 
 def persist(url: str, body: Any, key: str, idempotency_key: str) -> str:
