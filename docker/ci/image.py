@@ -34,9 +34,9 @@ def container(*arguments: str, command: tuple[str, ...] = ()) -> Iterator[str]:
         docker("rm", "--force", "--volumes", name)
 
 
-def plans(name: str, key: str | None = None) -> None:
+def plans(at: str, key: str | None = None) -> None:
     """The README's scene is planned."""
-    reply = ask(url(name) + "/v1/plans", readme_scene(), key)
+    reply = ask(at + "/v1/plans", readme_scene(), key)
     assert reply.status == 200 and (reply.json()["verdict"], reply.json()["cost"]) == ("relocate", 2), reply
 
 
@@ -87,11 +87,11 @@ def check_keys() -> None:
         mount = ["--volume", f"{path}:/keys.toml:ro", "--env", "SINGULATE_API_KEYS_FILE=/keys.toml"]
         with container(*mount) as name:
             healthy(name)
-            at_rest = resident_mb(name)
-            assert ask(url(name) + "/v1/plans", readme_scene()).status == 401
-            assert ask(url(name) + "/v1/plans", readme_scene(), key[:-1]).status == 401
+            at, at_rest = url(name), resident_mb(name)
+            assert ask(at + "/v1/plans", readme_scene()).status == 401
+            assert ask(at + "/v1/plans", readme_scene(), key[:-1]).status == 401
             for _ in range(PLANS):
-                plans(name, key)
+                plans(at, key)
             print(f"resident memory: {at_rest:.1f} MB at rest, {resident_mb(name):.1f} MB after {PLANS} plans")
             print(f"SIGTERM to end: {ends_well(name) * 1000:.0f} ms, with the engine's part in it")
 
@@ -103,7 +103,7 @@ def check_insecure() -> None:
     try:
         with container(*mount, command=("serve", "--insecure")) as name:
             healthy(name)
-            plans(name)
+            plans(url(name))
             reply = ask(url(name) + "/v1/jobs", readme_scene())
             assert reply.status == 202, reply
             ends_well(name)
@@ -113,7 +113,7 @@ def check_insecure() -> None:
             until(lambda: ask(job).json()["state"] == "succeeded", "the job has succeeded")
             serving = next(line for line in logs(name).splitlines() if "serving" in line)
             assert re.search(r"threads=1\b", re.sub(r"\x1b\[\d*m", "", serving)), serving
-            plans(name)
+            plans(url(name))
             ends_well(name)
     finally:
         docker("volume", "rm", volume)
