@@ -63,7 +63,7 @@ pub fn openapi() -> utoipa::openapi::OpenApi {
 /// What the scheme is called in the document, and what is said of it.
 const SCHEME: &str = "bearer";
 const BEARER: &str = "A key of the operator's. The words beside it name what the key must be for. A service that runs \
-    without keys asks for none.";
+    without keys asks for none, hence the empty alternative.";
 
 /// Say what an operation needs of a key, and what is answered where it is not given.
 fn describe_need(need: Need, item: &mut PathItem) {
@@ -72,9 +72,11 @@ fn describe_need(need: Need, item: &mut PathItem) {
         Need::AnyKey => (vec![SecurityRequirement::new(SCHEME, [""; 0])], &KEY_PROBLEMS[..2]),
         Need::OneOf(scopes) => {
             let one = |scope: &Scope| SecurityRequirement::new(SCHEME, [scope.as_str()]);
-            (scopes.iter().map(one).collect(), &KEY_PROBLEMS[..])
+            (scopes.iter().map(one).collect::<Vec<_>>(), &KEY_PROBLEMS[..])
         }
     };
+    // One document for every service, with keys or without: a client made from either knows where its key goes.
+    let security = [&[SecurityRequirement::default()], &security[..]].concat();
     let operations = [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten();
     for operation in operations {
         operation.security = Some(security.clone());
