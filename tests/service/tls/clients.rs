@@ -40,7 +40,7 @@ async fn without_a_certificate_there_are_only_probes() {
     for path in ["/version", "/openapi.json", "/docs/", "/metrics", "/v1/jobs", "/nowhere", "/livez/", "//readyz"] {
         let reply = host.get(path).await;
         reply.is_problem(401, "unauthorized");
-        assert_eq!(reply.header("www-authenticate"), "Bearer", "{path}");
+        assert_eq!(reply.header("www-authenticate"), "Bearer realm=\"singulate\"", "{path}");
         assert_eq!(reply.header("strict-transport-security"), "max-age=31536000", "{path}");
     }
     let client = authority.client(Some(&authority.pair()));
