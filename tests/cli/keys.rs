@@ -97,7 +97,7 @@ fn every_fault_of_a_keys_file_is_told_and_both_ways_at_once_are_a_contradiction(
     }
     // As a value the next word is none: it is a command's argument, and there is no such.
     failed(&run(&["serve", "--jobs-url", NO_STORE, "--insecure", "true"]), 2);
-    failed(&run(&["serve", "--insecure=maybe"]), 2);
+    failed(&run(&["serve", "--jobs-url", NO_STORE, "--insecure=maybe"]), 2);
 }
 
 /// What a service says on stderr that has no store and so ends at once.
