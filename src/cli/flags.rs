@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
 
-use crate::config::{Config, SETTINGS, Scope, Setting, Stated};
+use crate::config::{Config, NeededBy, SETTINGS, Setting, Stated};
 
 /// The flags of a command that serves (`SERVICE`) or only plans, for whom most settings mean nothing.
 #[derive(Debug, Default)]
@@ -12,7 +12,7 @@ pub(super) struct Flags<const SERVICE: bool>(pub(super) Stated);
 
 impl<const SERVICE: bool> Flags<SERVICE> {
     fn settings() -> impl Iterator<Item = &'static Setting> {
-        SETTINGS.iter().filter(|setting| SERVICE || setting.scope == Scope::Planning)
+        SETTINGS.iter().filter(|setting| SERVICE || setting.needed_by == NeededBy::Planning)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::api::ServerSettings;
 use crate::keys::Keys;
 
 pub use load::{ConfigError, Source, Stated, load};
-pub use setting::{Scope, Setting};
+pub use setting::{NeededBy, Setting};
 pub use settings::SETTINGS;
 
 use crate::telemetry::{Endpoint, LogFormat};

@@ -13,7 +13,7 @@ const NO_FILE: &str = "none";
 
 /// Who needs a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scope {
+pub enum NeededBy {
     /// The service alone.
     Service,
     /// Whoever reads a scene.
@@ -26,7 +26,7 @@ pub struct Setting {
     /// Its key in the file.
     pub name: &'static str,
     /// Who needs it.
-    pub scope: Scope,
+    pub needed_by: NeededBy,
     /// What stands for the value in the help.
     pub placeholder: &'static str,
     /// One sentence.

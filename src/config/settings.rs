@@ -1,6 +1,6 @@
 //! Every setting, each once.
 
-use super::setting::{Scope, Setting, Value};
+use super::setting::{NeededBy, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
 
@@ -13,7 +13,7 @@ const MAX_BYTES: u64 = 1_000_000_000;
 pub static SETTINGS: &[Setting] = &[
     Setting {
         name: "listen",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "ADDR:PORT",
         help: "Where to listen; port 0 takes any free one",
         value: Value::Other {
@@ -27,21 +27,21 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "api_keys_file",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "FILE",
         help: "The keys of those who may call, see `singulate key new`; read again when it changes",
         value: Value::File { field: |config| &mut config.server.api_keys_file },
     },
     Setting {
         name: "insecure",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "true|false",
         help: "Serve without keys: whoever reaches the service may use it",
         value: Value::Switch { field: |config| &mut config.insecure },
     },
     Setting {
         name: "cors_origins",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "ORIGINS",
         help: "Where pages may come from that call from a browser, such as https://cell.example.com; separated by commas",
         value: Value::Other {
@@ -54,77 +54,77 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "tls_cert",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "FILE",
         help: "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
         value: Value::File { field: |config| &mut config.server.tls.cert },
     },
     Setting {
         name: "tls_key",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "FILE",
         help: "The certificate's private key, PEM",
         value: Value::File { field: |config| &mut config.server.tls.key },
     },
     Setting {
         name: "tls_client_ca",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "FILE",
         help: "The authorities of clients, PEM; each then needs a certificate of theirs",
         value: Value::File { field: |config| &mut config.server.tls.client_ca },
     },
     Setting {
         name: "threads",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Planning threads; one per core where nothing is said",
         value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.threads },
     },
     Setting {
         name: "queue",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Requests that may wait for a planning thread; more are refused with 503",
         value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.queue },
     },
     Setting {
         name: "max_connections",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Connections at a time; more wait to be accepted",
         value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.connections },
     },
     Setting {
         name: "max_body_bytes",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "BYTES",
         help: "The largest request body",
         value: Value::Whole { least: 1, most: MAX_BYTES, field: |config| &mut config.server.max_body_bytes },
     },
     Setting {
         name: "header_timeout_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "How long a request's head may take",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.header_timeout },
     },
     Setting {
         name: "body_timeout_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "How long a request's body may take",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.body_timeout },
     },
     Setting {
         name: "write_timeout_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "How long a client may take nothing of an answer that waits for it",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.write_timeout },
     },
     Setting {
         name: "jobs_url",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "URL",
         help: "Where jobs are kept: sqlite:PATH, sqlite::memory: or postgres://…",
         value: Value::Other {
@@ -142,21 +142,21 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "job_threads",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Planning threads for jobs; one per core where nothing is said",
         value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.jobs.threads },
     },
     Setting {
         name: "max_queued_jobs",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Jobs that may wait in the store; more are refused with 503",
         value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.jobs.max_queued },
     },
     Setting {
         name: "job_lease_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "For how long a worker that says nothing keeps its job",
         // Below a second a busy machine would take jobs from workers that live.
@@ -164,35 +164,35 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "job_ttl_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "How long a job may wait, and for how long an ended one is kept",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.jobs.ttl },
     },
     Setting {
         name: "max_waiting",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Clients that may wait for the ends of jobs at a time",
         value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_waiting },
     },
     Setting {
         name: "max_streams",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "N",
         help: "Clients that may listen to the events of jobs at a time",
         value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_streams },
     },
     Setting {
         name: "drain_ms",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "MS",
         help: "How long what runs has to end once the service is asked to",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.drain },
     },
     Setting {
         name: "callback_allow",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "HOSTS",
         help: "Who may be told of a job's end: names, *.name, addresses, ranges; separated by commas",
         value: Value::Other {
@@ -205,7 +205,7 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "callback_secret",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "SECRET",
         help: "What callbacks are signed with; better set by the variable, which other users can't list",
         value: Value::Other {
@@ -218,7 +218,7 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "otlp_endpoint",
-        scope: Scope::Service,
+        needed_by: NeededBy::Service,
         placeholder: "URL|off",
         help: "Where traces go: a collector of OTLP over HTTP, such as http://localhost:4318",
         value: Value::Other {
@@ -231,14 +231,14 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "max_objects",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "N",
         help: "The most objects of a scene",
         value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.limits.scene.max_objects },
     },
     Setting {
         name: "max_neighbours",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "N",
         help: "The most obstacles in reach of one grasp",
         value: Value::Whole {
@@ -249,7 +249,7 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "overlap_tolerance",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "METRES",
         help: "How deep two discs may overlap and still pass as perception noise",
         value: Value::Number {
@@ -260,28 +260,28 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "raster_resolution",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "METRES",
         help: "The side of a pixel where a scene asks for `placement: raster`",
         value: Value::Number { least: 1e-6, most: 1e3, field: |config| &mut config.server.limits.raster_resolution },
     },
     Setting {
         name: "default_time_limit_ms",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "MS",
         help: "The time limit of a scene that names none",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.limits.default_time_limit },
     },
     Setting {
         name: "max_time_limit_ms",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "MS",
         help: "The longest time limit that a scene may name",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.limits.max_time_limit },
     },
     Setting {
         name: "log",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "FILTER",
         help: "Which log lines go to stderr, such as warn or info,singulate=debug",
         value: Value::Other {
@@ -295,7 +295,7 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "log_format",
-        scope: Scope::Planning,
+        needed_by: NeededBy::Planning,
         placeholder: "text|json",
         help: "How log lines are written",
         value: Value::Other {
