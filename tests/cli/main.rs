@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "what fails here fails the test")]
 
 mod commands;
+mod controllers;
+mod errors;
 mod experiments;
 #[path = "../service/hard.rs"]
 mod hard;
