@@ -8,6 +8,7 @@ mod errors;
 mod experiments;
 #[path = "../service/hard.rs"]
 mod hard;
+mod log;
 mod readme;
 mod scenes;
 mod service;
