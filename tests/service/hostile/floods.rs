@@ -10,7 +10,7 @@ use singulate::plan::{Answer, PlanError, Settings};
 use singulate::scene::Scene;
 
 use super::{others_are_served, send, served_meanwhile};
-use crate::host::{Host, raw_plan, read_to_end, scene, wait_until};
+use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};
 use crate::planning::{endless, wait_for_the_end};
 
 #[tokio::test]
@@ -37,7 +37,9 @@ async fn a_flood_of_plans_on_one_connection_is_planned_one_at_a_time() {
 // More connections than the system holds for a server that can't accept: on another thread than the server.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_flood_of_connections_that_ask_nothing_holds_up_nobody_else() {
-    let host = Host::start().await;
+    // None of them is cut off meanwhile.
+    let settings = ServerSettings { header_timeout: PATIENCE * 10, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
     served_meanwhile(&host, async || {
         let connections: Vec<_> = (0..200).map(|_| host.raw("")).collect();
         others_are_served(&host).await;
