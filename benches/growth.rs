@@ -32,8 +32,8 @@ fn main() -> ExitCode {
     let mut points = Vec::new();
     for objects in SIZES {
         let scenes = (0..SCENES).map(|seed| cases::scene(cases::equal_density(objects, seed)));
-        let total: f64 = scenes.map(|scene| time(&scene).as_secs_f64() * 1e6).sum();
-        let mean = total / 3.0;
+        let times: Vec<f64> = scenes.map(|scene| time(&scene).as_secs_f64() * 1e6).collect();
+        let mean = times.iter().sum::<f64>() / cases::count(times.len());
         println!("{objects:>8} {mean:>12.1} {:>12.3}", mean / cases::count(objects));
         points.push((libm::log(cases::count(objects)), libm::log(mean)));
     }

@@ -5,15 +5,19 @@
 //! the memory from `/proc`.
 
 mod cases;
+#[path = "cases/client.rs"]
+mod client;
+#[path = "cases/server.rs"]
+mod server;
 
-use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::process::{Child, Command, ExitCode, Stdio};
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use rustix::process::{Resource, getrlimit, setrlimit};
 use singulate::wire::SceneBody;
+
+use client::{Client, get, post};
+use server::{Server, resident};
 
 const CONNECTIONS: u64 = 10_000;
 /// Files of this process, and of the service, that are none of them.
@@ -22,7 +26,6 @@ const MAX_GROWTH_KB: u64 = 200_000;
 const MAX_RATIO: f64 = 2.0;
 /// Plans in one median.
 const PLANS: usize = 1000;
-const LIVEZ: &str = "GET /livez HTTP/1.1\r\nhost: x\r\n\r\n";
 
 fn main() -> ExitCode {
     let mut limit = getrlimit(Resource::Nofile);
@@ -32,14 +35,14 @@ fn main() -> ExitCode {
     if count < CONNECTIONS {
         println!("the limit of open files allows only {count} connections");
     }
-    let service = Service::start();
-    let plan = plan();
+    let server = Server::start("sqlite::memory:", &[]);
+    let (plan, livez) = (plan(), get("/livez"));
     // What the first plans allocate is no cost of connections.
-    service.median(&plan);
-    let (memory, without) = (service.memory_kb(), service.median(&plan));
-    let mut resting: Vec<_> = (0..count).map(|_| service.rested()).collect();
-    let (growth, with) = (service.memory_kb().saturating_sub(memory), service.median(&plan));
-    let held = resting.iter_mut().filter_map(|connection| ask(connection, LIVEZ)).count() as u64;
+    median(&server, &plan);
+    let (memory, without) = (resident(server.process()), median(&server, &plan));
+    let mut resting: Vec<_> = (0..count).map(|_| rested(&server, &livez)).collect();
+    let (growth, with) = (resident(server.process()).saturating_sub(memory), median(&server, &plan));
+    let held = resting.iter_mut().filter_map(|connection| connection.try_ask(&livez).ok()).count() as u64;
     let ratio = with.as_secs_f64() / without.as_secs_f64();
     let ms = |duration: Duration| duration.as_secs_f64() * 1e3;
     println!("{held} of {count} connections held; {:.1} kB each, {growth} kB in all", growth as f64 / count as f64);
@@ -49,82 +52,27 @@ fn main() -> ExitCode {
 }
 
 /// The request for a plan of 50 dishes.
-fn plan() -> String {
+fn plan() -> Vec<u8> {
     let scene = cases::scene(cases::equal_density(50, 0));
-    let body = serde_json::to_string(&SceneBody::new(&scene, None)).expect("JSON");
-    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: ";
-    format!("{head}{}\r\n\r\n{body}", body.len())
+    post("/v1/plans", &serde_json::to_vec(&SceneBody::new(&scene, None)).expect("JSON"))
 }
 
-/// Send a request; the status of its answer, `None` where the connection is closed.
-fn ask(connection: &mut BufReader<TcpStream>, request: &str) -> Option<u16> {
-    connection.get_mut().write_all(request.as_bytes()).ok()?;
-    let mut head = String::new();
-    while !head.ends_with("\r\n\r\n") {
-        if connection.read_line(&mut head).ok()? == 0 {
-            return None;
-        }
-    }
-    let length = head.lines().find_map(|line| line.strip_prefix("content-length: "))?;
-    let mut body = vec![0; length.parse().ok()?];
-    connection.read_exact(&mut body).ok()?;
-    head.split(' ').nth(1)?.parse().ok()
+/// A connection that rests after an answer. One that asks nothing at first is cut off after some seconds.
+fn rested(server: &Server, livez: &[u8]) -> Client {
+    let mut connection = Client::connect(server.address());
+    assert_eq!(connection.ask(livez).status, 200);
+    connection
 }
 
-/// The service; it ends with the bench.
-struct Service {
-    child: Child,
-    address: String,
-}
-
-impl Service {
-    fn start() -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_singulate"));
-        command.args(["serve", "--listen", "127.0.0.1:0", "--log", "warn"]);
-        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().expect("a process");
-        let mut line = String::new();
-        let mut out = BufReader::new(child.stdout.take().expect("piped"));
-        out.read_line(&mut line).expect("a greeting");
-        let url = line.split_whitespace().find_map(|word| word.strip_prefix("http://")).expect("an address");
-        Self { child, address: url.to_owned() }
-    }
-
-    fn connect(&self) -> BufReader<TcpStream> {
-        // The default buffer would cost this process as much as a connection costs the service.
-        BufReader::with_capacity(512, TcpStream::connect(&self.address).expect("accepted"))
-    }
-
-    /// A connection that rests after an answer. One that asks nothing at first is cut off after some seconds.
-    fn rested(&self) -> BufReader<TcpStream> {
-        let mut connection = self.connect();
-        assert_eq!(ask(&mut connection, LIVEZ), Some(200));
-        connection
-    }
-
-    /// The median time of a plan on one connection.
-    fn median(&self, plan: &str) -> Duration {
-        let mut connection = self.connect();
-        let once = |_| {
-            let started = Instant::now();
-            assert_eq!(ask(&mut connection, plan), Some(200));
-            started.elapsed()
-        };
-        let mut taken: Vec<Duration> = (0..PLANS).map(once).collect();
-        taken.sort_unstable();
-        taken[PLANS / 2]
-    }
-
-    /// Its resident memory.
-    fn memory_kb(&self) -> u64 {
-        let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).expect("Linux");
-        let resident = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("a figure");
-        resident.trim().trim_end_matches(" kB").parse().expect("a number")
-    }
-}
-
-impl Drop for Service {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
+/// The median time of a plan on one connection.
+fn median(server: &Server, plan: &[u8]) -> Duration {
+    let mut connection = Client::connect(server.address());
+    let once = |_| {
+        let started = Instant::now();
+        assert_eq!(connection.ask(plan).status, 200);
+        started.elapsed()
+    };
+    let mut taken: Vec<Duration> = (0..PLANS).map(once).collect();
+    taken.sort_unstable();
+    taken[PLANS / 2]
 }

@@ -9,6 +9,9 @@
 //! fails where that took longer than 20 ms and the same percentile.
 
 mod cases;
+#[path = "cases/client.rs"]
+#[expect(dead_code, reason = "sends and receives apart, for the time between them counts")]
+mod client;
 #[path = "cases/ends.rs"]
 mod ends;
 #[path = "cases/hard.rs"]
@@ -17,8 +20,7 @@ mod hard;
 mod timer;
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::{SocketAddr, TcpStream};
+use std::net::SocketAddr;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::Barrier;
@@ -32,6 +34,7 @@ use singulate::scene::{Scene, SceneDraft};
 use singulate::wire::{RequestLimits, SceneBody, read_scene};
 use tokio::net::TcpListener;
 
+use client::{Client, post};
 use ends::End;
 use timer::{Timer, p99};
 
@@ -72,7 +75,12 @@ fn main() -> ExitCode {
         println!("{name}: reading the body alone takes {:.1} ms", ms(reading(&scene, method)));
         for limit in LIMITS_MS {
             for clients in CLIENTS {
-                let row = Row::measure(address, &request(&scene, method, limit), clients, Duration::from_millis(limit));
+                let row = Row::measure(
+                    address,
+                    &post("/v1/plans", &body(&scene, method, limit)),
+                    clients,
+                    Duration::from_millis(limit),
+                );
                 println!("{name:<24} {limit:>9} {clients:>9} {row}");
                 worst = worst.max(row.worst());
             }
@@ -139,12 +147,6 @@ fn body(scene: &Scene, method: Method, limit: u64) -> Vec<u8> {
     body.to_string().into_bytes()
 }
 
-fn request(scene: &Scene, method: Method, limit: u64) -> Vec<u8> {
-    let body = body(scene, method, limit);
-    let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: ";
-    [format!("{head}{}\r\n\r\n", body.len()).as_bytes(), &body].concat()
-}
-
 /// The answers to one kind of request.
 struct Row {
     lateness: Vec<Duration>,
@@ -155,7 +157,7 @@ impl Row {
     fn measure(address: SocketAddr, request: &[u8], clients: usize, limit: Duration) -> Self {
         let (together, rounds) = (Barrier::new(clients), ROW.as_millis() / limit.as_millis() + 1);
         let client = || {
-            let mut connection = BufReader::new(TcpStream::connect(address).expect("the server listens"));
+            let mut connection = Client::connect(address);
             let round = |_| {
                 together.wait();
                 ask(&mut connection, request)
@@ -189,18 +191,12 @@ impl core::fmt::Display for Row {
 }
 
 /// How long the answer took from the end of the sending, and its verdict, or its status where it is none.
-fn ask(connection: &mut BufReader<TcpStream>, request: &[u8]) -> (Duration, String) {
-    connection.get_mut().write_all(request).expect("sent");
+fn ask(connection: &mut Client, request: &[u8]) -> (Duration, String) {
+    connection.send(request).expect("sent");
     let sent = Instant::now();
-    let mut head = String::new();
-    while !head.ends_with("\r\n\r\n") {
-        assert!(connection.read_line(&mut head).expect("a head") > 0, "the server hung up: {head}");
-    }
-    let length = head.lines().find_map(|line| line.strip_prefix("content-length: ")).expect("a length");
-    let mut body = vec![0; length.parse().expect("a number")];
-    connection.read_exact(&mut body).expect("a body");
+    let reply = connection.receive().expect("an answer");
     let taken = sent.elapsed();
-    let body: Value = serde_json::from_slice(&body).expect("JSON");
+    let body: Value = serde_json::from_slice(&reply.body).expect("JSON");
     let word = body["verdict"].as_str().map_or_else(|| format!("status {}", body["status"]), str::to_owned);
     (taken, word)
 }

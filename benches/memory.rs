@@ -12,7 +12,7 @@ use std::process::{Command, ExitCode};
 
 use singulate::budget::Budget;
 use singulate::experiments::Recipe;
-use singulate::plan::{PlanError, Verdict, plan};
+use singulate::plan::{PlanError, plan};
 use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 
@@ -70,23 +70,13 @@ fn answer(case: usize) {
             Err(PlanError::Refused(report)) => panic!("{report:?}"),
             Ok(answer) => {
                 let bytes = serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON").len();
-                format!("{}, {bytes} bytes", name(&answer.verdict))
+                format!("{}, {bytes} bytes", answer.verdict.as_str())
             }
         },
     };
     let status = fs::read_to_string("/proc/self/status").expect("Linux");
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
     println!("{} {verdict}", peak.trim().trim_end_matches(" kB"));
-}
-
-fn name(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Graspable(_) => "graspable",
-        Verdict::Relocate(_) => "relocate",
-        Verdict::Deadlock(_) => "deadlock",
-        Verdict::NoSpace(_) => "no_space",
-        Verdict::TimedOut(_) => "timed_out",
-    }
 }
 
 /// The draft as a request body, written piece by piece: its own memory must not count.

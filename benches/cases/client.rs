@@ -57,8 +57,17 @@ impl Client {
         self.try_ask(request).expect("an answer")
     }
 
-    fn try_ask(&mut self, request: &[u8]) -> io::Result<Reply> {
-        self.stream.write_all(request)?;
+    pub(crate) fn try_ask(&mut self, request: &[u8]) -> io::Result<Reply> {
+        self.send(request)?;
+        self.receive()
+    }
+
+    pub(crate) fn send(&mut self, request: &[u8]) -> io::Result<()> {
+        self.stream.write_all(request)
+    }
+
+    /// The answer to what was sent.
+    pub(crate) fn receive(&mut self) -> io::Result<Reply> {
         self.received.clear();
         let mut piece = [0; 16 * 1024];
         loop {

@@ -16,6 +16,8 @@ mod mix;
 mod paper;
 #[path = "../cases/server.rs"]
 mod server;
+#[path = "../cases/store_file.rs"]
+mod store_file;
 mod tally;
 #[path = "../cases/timer.rs"]
 mod timer;
@@ -27,7 +29,8 @@ use std::time::Duration;
 use capacity::Capacity;
 use memory::{Memory, Resident};
 use mix::Mix;
-use server::{Server, StoreFile};
+use server::Server;
+use store_file::StoreFile;
 use tally::{Kind, Tally};
 use timer::{Timer, p99};
 

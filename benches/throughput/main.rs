@@ -12,11 +12,14 @@ mod paper;
 mod rates;
 #[path = "../cases/server.rs"]
 mod server;
+#[path = "../cases/store_file.rs"]
+mod store_file;
 
 use std::process::ExitCode;
 
-use server::{Server, StoreFile};
+use server::Server;
 use singulate::wire::SceneBody;
+use store_file::StoreFile;
 
 const SCENES: u64 = 40;
 /// The least rate of plans over that of `/livez`.

@@ -17,6 +17,7 @@ use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
 use crate::budget::Budget;
 use crate::jobs::{self, Owner, Runner, Store};
+use crate::keys::Keys;
 use crate::metrics::{Metrics, Queue, Refusal};
 use crate::traces::Context;
 use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
@@ -25,6 +26,8 @@ use crate::workers::{Draining, Engine, Outcome, Pending, Pool, Refused};
 /// The service's state.
 pub struct App {
     pub(super) settings: ServerSettings,
+    /// Who may call; without keys everybody may.
+    pub(super) keys: Option<Keys>,
     pub(super) engine: Engine,
     pub(super) pool: Pool,
     pub(super) store: Arc<dyn Store>,
@@ -52,11 +55,12 @@ const MAX_SUBMITTING: usize = 32;
 pub(super) type Served = Result<Vec<u8>, Problem>;
 
 impl App {
-    /// Opens the store of jobs and starts the planning threads.
+    /// Reads the keys, opens the store of jobs and starts the planning threads.
     ///
     /// # Errors
-    /// If the store can't be opened, or the system gives no thread.
+    /// If the keys are faulty, the store can't be opened, or the system gives no thread.
     pub async fn start(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
+        let keys = settings.api_keys_file.as_deref().map(Keys::open).transpose().map_err(io::Error::other)?;
         let metrics = Arc::<Metrics>::default();
         let store = jobs::open(&settings.jobs, Arc::clone(&metrics)).await.map_err(io::Error::other)?;
         let pool = Pool::new(settings.threads, settings.queue)?;
@@ -64,6 +68,7 @@ impl App {
         let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
         Ok(Self {
             settings,
+            keys,
             engine,
             pool,
             store,
@@ -75,6 +80,13 @@ impl App {
             streams: Arc::new(streams),
             draining: Draining::default(),
         })
+    }
+
+    /// Take over what the keys file says whenever that changes.
+    pub(super) async fn watch_keys(&self) {
+        if let Some(keys) = &self.keys {
+            keys.watch().await;
+        }
     }
 
     /// From now on the service says that it is not ready, and begins nothing new.
@@ -146,13 +158,13 @@ impl App {
 
     /// Whoever would be refused anyway is refused before the body is read, which costs ten times a glance: under overload
     /// most are, and their reading would take the cores from those that are not.
-    fn refuse_unread(&self, arrival: Instant, body: &[u8]) -> Result<(), Problem> {
+    fn refuse_unread(&self, owner: &Owner, arrival: Instant, body: &[u8]) -> Result<(), Problem> {
         if self.pool.idle() > 0 {
             return Ok(());
         }
         let time_limit = Glance::at(body, &self.settings.limits).time_limit;
         let left = time_limit.saturating_sub(arrival.elapsed());
-        self.pool.room(Owner::anonymous().as_str(), left).map_err(|error| self.turn_away(error))
+        self.pool.room(owner.as_str(), left).map_err(|error| self.turn_away(error))
     }
 
     fn turn_away(&self, error: Refused) -> Problem {
@@ -164,19 +176,19 @@ impl App {
     /// to say. The limit counts from `arrival`.
     pub(super) async fn answer<R: AsRef<PlanRequest> + Send + Sync + 'static>(
         &self,
+        owner: &Owner,
         arrival: Instant,
         (body, read): (Received, Read<R>),
         work: impl FnOnce(&R, &Budget<'_>) -> Served + Send + 'static,
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
         self.takes_work()?;
-        self.refuse_unread(arrival, &body)?;
+        self.refuse_unread(owner, arrival, &body)?;
         let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
         edge::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);
         let time_limit = reading.glance().time_limit;
-        let pending =
-            self.begin(&Owner::anonymous(), arrival, time_limit, move |budget| work(own.request()?, budget))?;
+        let pending = self.begin(owner, arrival, time_limit, move |budget| work(own.request()?, budget))?;
         match pending.outcome().await {
             Outcome::Done(served) => served,
             Outcome::TimedOut => {

@@ -3,6 +3,7 @@
 use core::future::poll_fn;
 use core::ops::Deref;
 use core::pin::Pin;
+use core::time::Duration;
 use std::sync::Arc;
 
 use axum::body::{Body, Bytes};
@@ -67,6 +68,17 @@ pub(super) async fn receive(request: Request<Body>, app: &App) -> Result<Receive
         return Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"));
     }
     Ok(Received { bytes: intake.received, _room: intake.room })
+}
+
+/// Let the body of a request that is refused unread come to its end, unless that takes too long: a client that still
+/// sends when its connection closes may never see why. None of it is kept.
+pub(super) fn discard(request: Request<Body>, patience: Duration) {
+    // Who asks before sending has sent nothing, and would be told to.
+    if request.headers().contains_key(header::EXPECT) || request.body().is_end_stream() {
+        return;
+    }
+    let mut body = request.into_body();
+    tokio::spawn(timeout(patience, async move { while let Ok(Some(_)) = next(&mut body).await {} }));
 }
 
 fn too_large(max: usize) -> Problem {

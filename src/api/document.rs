@@ -6,11 +6,15 @@ use std::sync::LazyLock;
 use axum::http::header;
 use axum::response::IntoResponse;
 use utoipa::openapi::header::HeaderBuilder;
-use utoipa::openapi::{ContentBuilder, ObjectBuilder, Ref, RefOr, Response, ResponseBuilder, Schema, Type};
+use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
+use utoipa::openapi::{ContentBuilder, ObjectBuilder, PathItem, Ref, RefOr, Response, ResponseBuilder, Schema, Type};
 use utoipa::{IntoResponses, OpenApi};
+use utoipa_axum::router::OpenApiRouter;
 
-use super::problem::PROBLEM_JSON;
+use super::access::Need;
+use super::problem::{PROBLEM_JSON, comes_again};
 use super::router;
+use crate::keys::Scope;
 use crate::wire::{Problem, ProblemKind};
 
 #[derive(OpenApi)]
@@ -34,7 +38,7 @@ use crate::wire::{Problem, ProblemKind};
 struct Blank;
 
 /// The document without its paths.
-pub(super) fn blank() -> utoipa::openapi::OpenApi {
+fn blank() -> utoipa::openapi::OpenApi {
     let mut document = Blank::openapi();
     document.info.contact = None;
     document
@@ -42,10 +46,51 @@ pub(super) fn blank() -> utoipa::openapi::OpenApi {
 
 /// The interface document.
 pub fn openapi() -> utoipa::openapi::OpenApi {
-    let mut document = router::routes().into_openapi();
+    let blank = OpenApiRouter::with_openapi(blank());
+    let routed = router::operations().into_iter().fold(blank, |router, (need, (schemas, mut paths, route))| {
+        paths.paths.values_mut().for_each(|item| describe_need(need, item));
+        router.routes((schemas, paths, route))
+    });
+    let mut document = routed.into_openapi();
+    let components = document.components.get_or_insert_default();
+    let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).description(Some(BEARER)).build();
+    components.add_security_scheme(SCHEME, SecurityScheme::Http(bearer));
     let schemas = document.components.iter_mut().flat_map(|components| components.schemas.values_mut());
     schemas.for_each(describe_nullable_fields);
     document
+}
+
+/// What the scheme is called in the document, and what is said of it.
+const SCHEME: &str = "bearer";
+const BEARER: &str = "A key of the operator's. The words beside it name what the key must be for. A service that runs \
+    without keys asks for none, hence the empty alternative.";
+
+/// Say what an operation needs of a key, and what is answered where it is not given.
+fn describe_need(need: Need, item: &mut PathItem) {
+    let (security, problems) = match need {
+        Need::Nothing => return,
+        Need::AnyKey => (vec![SecurityRequirement::new(SCHEME, [""; 0])], &KEY_PROBLEMS[..2]),
+        Need::OneOf(scopes) => {
+            let one = |scope: &Scope| SecurityRequirement::new(SCHEME, [scope.as_str()]);
+            (scopes.iter().map(one).collect::<Vec<_>>(), &KEY_PROBLEMS[..])
+        }
+    };
+    // One document for every service, with keys or without: a client made from either knows where its key goes.
+    let security = [&[SecurityRequirement::default()], &security[..]].concat();
+    let operations = [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten();
+    for operation in operations {
+        operation.security = Some(security.clone());
+        for &(kind, description, detail) in problems {
+            let example = Problem::new(kind, detail);
+            let mut response = problem(&example, description);
+            if kind == ProblemKind::Unauthorized {
+                let text = ObjectBuilder::new().schema_type(Type::String).build();
+                let header = HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and why (RFC 6750)."));
+                response.headers.insert("WWW-Authenticate".to_owned(), header.build().into());
+            }
+            operation.responses.responses.insert(example.status().to_string(), response.into());
+        }
+    }
 }
 
 /// The derive describes only the reference in "reference or null"; the description belongs to the field.
@@ -69,6 +114,17 @@ pub fn openapi_json() -> String {
     text.push('\n');
     text
 }
+
+/// What is said of the problems of keys: first those of any key.
+const KEY_PROBLEMS: [(ProblemKind, &str, &str); 3] = [
+    (ProblemKind::Unauthorized, "No key, or one that does not hold.", "there is no such key, or no longer"),
+    (
+        ProblemKind::RateExceeded,
+        "The key was used more often than it may be.",
+        "the key was used more often than it may be",
+    ),
+    (ProblemKind::Forbidden, "The key is for something else.", "this needs a key for plan"),
+];
 
 /// The problems of every request with a body.
 pub(super) struct RequestProblems;
@@ -117,7 +173,7 @@ pub(super) fn problem(example: &Problem, description: &str) -> Response {
         content = content.example(serde_json::to_value(example).ok());
     }
     let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content.build());
-    if !matches!(example.kind(), ProblemKind::Overloaded | ProblemKind::StoreUnavailable) {
+    if !comes_again(example.kind()) {
         return response.build();
     }
     let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();

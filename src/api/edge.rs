@@ -56,7 +56,8 @@ pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<B
     let path = template(matched.as_ref());
     let parent = request.headers().get(TRACEPARENT).and_then(|value| Traceparent::parse(value.to_str().ok()?));
     let trace_id = parent.as_ref().map(field::display);
-    let line = tracing::info_span!("request", %method, path, id = ?id, trace_id, scene_id = field::Empty);
+    let line =
+        tracing::info_span!("request", %method, path, id = ?id, trace_id, key = field::Empty, scene_id = field::Empty);
     let span = RequestSpan::begin(method.as_str(), path, id.to_str().unwrap_or_default(), parent.as_ref());
     let context = span.as_ref().map(RequestSpan::context);
     let metrics = Arc::clone(&app.metrics);
@@ -74,6 +75,11 @@ pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<B
 /// The route, without anything of the request's own.
 fn template(path: Option<&MatchedPath>) -> &str {
     path.map_or("unmatched", MatchedPath::as_str)
+}
+
+/// Name the caller's key in the request's log lines.
+pub(super) fn note_key(name: &str) {
+    Span::current().record("key", name);
 }
 
 /// Name the scene in the request's log lines.

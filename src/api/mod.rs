@@ -1,12 +1,15 @@
 //! The HTTP interface: one file a resource, every route in [`router`], every status in `problem`.
 
 mod accept;
+mod access;
 mod app;
 mod body;
 mod connections;
+mod cors;
 mod docs;
 mod document;
 mod edge;
+mod headers;
 mod jobs;
 mod knowledge;
 mod metrics;
@@ -23,6 +26,7 @@ mod survey;
 mod verification;
 
 pub use app::App;
+pub use cors::CorsOrigins;
 pub use document::{openapi, openapi_json};
 pub use router::router;
 pub use server::run;

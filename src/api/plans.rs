@@ -9,6 +9,7 @@ use axum::http::{Request, header};
 use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
+use super::access::Caller;
 use super::app::{App, Served, json};
 use super::body;
 use super::document::RequestProblems;
@@ -36,7 +37,11 @@ use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
         RequestProblems,
     )
 )]
-pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+pub(super) async fn plan(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    request: Request<Body>,
+) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json, Form::Svg])?;
     let body = body::receive(request, &app).await?;
@@ -56,7 +61,7 @@ pub(super) async fn plan(State(app): State<Arc<App>>, request: Request<Body>) ->
         }
         (Known::Glance(_), Form::Svg) => Err(unread()),
     };
-    let bytes = app.answer(arrival, (body, read_scene), work, too_late).await?;
+    let bytes = app.answer(&caller.owner, arrival, (body, read_scene), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }
 

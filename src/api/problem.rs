@@ -14,6 +14,9 @@ use crate::workers::Refused;
 /// The media type of a problem document.
 pub(super) const PROBLEM_JSON: &str = "application/problem+json";
 
+/// How whoever has no key learns what is asked for (RFC 6750, section 3).
+pub(super) const CHALLENGE: &str = "Bearer realm=\"singulate\"";
+
 /// When a client that was refused may come again where nothing else is known.
 const RETRY_AFTER: Duration = Duration::from_secs(1);
 
@@ -24,9 +27,7 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let kind = self.kind();
-        let retry_after =
-            matches!(kind, ProblemKind::Overloaded | ProblemKind::NotReady | ProblemKind::StoreUnavailable)
-                .then(|| seconds(&self));
+        let retry_after = comes_again(kind).then(|| seconds(&self));
         let close = match kind {
             // The rest of the body may still be on its way.
             ProblemKind::BodyTimeout | ProblemKind::BodyTooLarge => true,
@@ -37,6 +38,9 @@ impl IntoResponse for Problem {
         let mut response = (status, Json(self)).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        if kind == ProblemKind::Unauthorized {
+            headers.insert(header::WWW_AUTHENTICATE, HeaderValue::from_static(CHALLENGE));
+        }
         if let Some(seconds) = retry_after {
             headers.insert(header::RETRY_AFTER, HeaderValue::from(seconds));
         }
@@ -47,9 +51,17 @@ impl IntoResponse for Problem {
     }
 }
 
+/// True if the same request may be answered later.
+pub(super) fn comes_again(kind: ProblemKind) -> bool {
+    use ProblemKind::{NotReady, Overloaded, RateExceeded, StoreUnavailable};
+    matches!(kind, Overloaded | NotReady | StoreUnavailable | RateExceeded)
+}
+
 /// When to come again, in whole seconds, rounded up.
 fn seconds(problem: &Problem) -> u64 {
-    let after = problem.retry_after().unwrap_or(RETRY_AFTER).clamp(RETRY_AFTER, MAX_RETRY_AFTER);
+    let after = problem.retry_after().unwrap_or(RETRY_AFTER).max(RETRY_AFTER);
+    // The moment at which a key may be used again is no estimate.
+    let after = if problem.kind() == ProblemKind::RateExceeded { after } else { after.min(MAX_RETRY_AFTER) };
     after.as_secs() + u64::from(after.subsec_nanos() > 0)
 }
 
@@ -120,5 +132,7 @@ mod tests {
         let seconds = |millis| seconds(&refused(Refused::TooLate { retry_after: Duration::from_millis(millis) }));
         assert_eq!([0, 10, 1000, 1001, 59_001, 1_000_000].map(seconds), [1, 1, 1, 2, 60, 60]);
         assert_eq!(super::seconds(&refused(Refused::Full)), 1);
+        let exact = Problem::new(ProblemKind::RateExceeded, "").with_retry_after(Duration::from_millis(999_001));
+        assert_eq!(super::seconds(&exact), 1000);
     }
 }

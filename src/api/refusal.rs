@@ -2,6 +2,7 @@
 
 use crate::wire::{Problem, ProblemKind};
 
+use super::headers::OF_DATA;
 use super::problem::PROBLEM_JSON;
 
 /// The problem, as a whole response, that stands for these bytes if they are a refusal without a body. Every refusal of
@@ -23,8 +24,9 @@ pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
     let body = serde_json::to_string(&Problem::new(kind, detail)).ok()?;
     let kept = kept.join("\r\n");
     let length = body.len();
-    let response =
-        format!("{status_line}\r\ncontent-type: {PROBLEM_JSON}\r\ncontent-length: {length}\r\n{kept}\r\n\r\n{body}");
+    let policy: String = OF_DATA.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();
+    let own = format!("content-type: {PROBLEM_JSON}\r\ncontent-length: {length}\r\n{policy}");
+    let response = format!("{status_line}\r\n{own}{kept}\r\n\r\n{body}");
     Some(response.into_bytes())
 }
 
@@ -38,8 +40,11 @@ mod tests {
         let text = String::from_utf8(problem_for(bytes).unwrap()).unwrap();
         let (head, body) = text.split_once("\r\n\r\n").unwrap();
         let length = format!("content-length: {}", body.len());
-        let lines = ["content-type: application/problem+json", &length, "connection: close", "date: x"];
-        assert_eq!(head.split("\r\n").collect::<Vec<_>>(), [&["HTTP/1.1 414 URI Too Long"][..], &lines].concat());
+        let mut lines: Vec<&str> = head.split("\r\n").collect();
+        lines.retain(|line| !line.starts_with("x-") && !line.contains("-policy: "));
+        let kept = ["content-type: application/problem+json", &length, "connection: close", "date: x"];
+        assert_eq!(lines, [&["HTTP/1.1 414 URI Too Long"][..], &kept].concat());
+        assert!(head.contains("\r\nx-content-type-options: nosniff\r\n"), "{head}");
         assert!(body.contains("\"type\":\"urn:singulate:problem:uri_too_long\""));
     }
 

@@ -9,7 +9,7 @@ use tokio::net::TcpListener;
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, timeout_at};
 use tokio_util::sync::CancellationToken;
-use tokio_util::task::TaskTracker;
+use tokio_util::task::{AbortOnDropHandle, TaskTracker};
 
 use super::app::App;
 use super::connections::Connections;
@@ -52,6 +52,8 @@ pub async fn run_with(
         // A store that can't be reached is not waited for.
         () = &mut shutdown => return Ok(()),
     };
+    let watched = Arc::clone(&app);
+    let _watching = AbortOnDropHandle::new(tokio::spawn(async move { watched.watch_keys().await }));
     let background = Background::begin(&app)?;
     let mut connections = Connections::new(listener, Arc::clone(&app));
     connections.serve_until(shutdown).await;

@@ -1,8 +1,10 @@
 //! What the operator may set.
 
 use core::time::Duration;
+use std::path::PathBuf;
 use std::thread::available_parallelism;
 
+use super::cors::CorsOrigins;
 use crate::jobs::JobSettings;
 use crate::wire::RequestLimits;
 
@@ -13,6 +15,10 @@ pub struct ServerSettings {
     pub limits: RequestLimits,
     /// Where jobs are kept and how they run.
     pub jobs: JobSettings,
+    /// The file with the keys of those who may call; without one everybody may.
+    pub api_keys_file: Option<PathBuf>,
+    /// Which pages may call from a browser.
+    pub cors_origins: CorsOrigins,
     /// Planning threads.
     pub threads: usize,
     /// Requests that may wait for a planning thread; more are refused.
@@ -40,6 +46,8 @@ impl Default for ServerSettings {
         Self {
             limits: RequestLimits::default(),
             jobs: JobSettings::default(),
+            api_keys_file: None,
+            cors_origins: CorsOrigins::default(),
             threads: available_parallelism().map_or(1, usize::from),
             // What a cell of robots asks at once. A longer queue helps nobody: who would wait past its deadline is refused
             // whatever the room.

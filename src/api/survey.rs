@@ -9,6 +9,7 @@ use axum::http::{Request, header};
 use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
+use super::access::Caller;
 use super::app::{App, json};
 use super::body;
 use super::document::RequestProblems;
@@ -33,7 +34,11 @@ use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
         RequestProblems,
     )
 )]
-pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+pub(super) async fn survey(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    request: Request<Body>,
+) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
     let body = body::receive(request, &app).await?;
@@ -45,6 +50,6 @@ pub(super) async fn survey(State(app): State<Arc<App>>, request: Request<Body>) 
         Known::Request(request) => json(&SurveyBody::timed_out(&request.scene)),
         Known::Glance(_) => Err(unread()),
     };
-    let bytes = app.answer(arrival, (body, read_scene), work, too_late).await?;
+    let bytes = app.answer(&caller.owner, arrival, (body, read_scene), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }

@@ -9,6 +9,7 @@ use axum::http::{Request, header};
 use axum::response::{IntoResponse, Response};
 
 use super::accept::{self, Form};
+use super::access::Caller;
 use super::app::{App, json};
 use super::body;
 use super::document::RequestProblems;
@@ -32,7 +33,11 @@ use crate::wire::{Problem, VerificationBody, VerifyBody, VerifyRequest, read_ver
         RequestProblems,
     )
 )]
-pub(super) async fn verify(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+pub(super) async fn verify(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    request: Request<Body>,
+) -> Result<Response, Problem> {
     let arrival = Instant::now();
     let form = accept::choose(request.headers(), &[Form::Json])?;
     let body = body::receive(request, &app).await?;
@@ -41,6 +46,6 @@ pub(super) async fn verify(State(app): State<Arc<App>>, request: Request<Body>) 
         json(&VerificationBody::new(&(engine.check)(&request.scene, claim, budget)))
     };
     let too_late = |_: Known<'_, VerifyRequest>| json(&VerificationBody::timed_out());
-    let bytes = app.answer(arrival, (body, read_verify), work, too_late).await?;
+    let bytes = app.answer(&caller.owner, arrival, (body, read_verify), work, too_late).await?;
     Ok(([(header::CONTENT_TYPE, form.media_type())], bytes).into_response())
 }

@@ -49,7 +49,9 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
                 .allow_hyphen_values(true)
                 .help_heading("Settings")
                 .help(format!("{} [env: {variable}] [default: {default}]", setting.help));
-            command.arg(flag)
+            // With a value of its own only as --flag=value, or it would take the next word for one.
+            let switch = |flag: Arg| flag.num_args(0..=1).require_equals(true).default_missing_value("true");
+            command.arg(if setting.is_switch() { switch(flag) } else { flag })
         })
     }
 

@@ -5,6 +5,7 @@ mod flags;
 mod generate;
 mod healthcheck;
 mod input;
+mod key;
 mod open_files;
 mod output;
 mod plan;
@@ -49,6 +50,8 @@ enum Command {
     Survey(survey::Survey),
     /// Make up a scene and print it as a request
     Generate(generate::Generate),
+    /// Make keys for those who may call
+    Key(key::Key),
     /// Run one of the paper's tables on made-up scenes
     Experiment(experiment::Experiment),
     /// Print the interface document
@@ -96,6 +99,7 @@ impl Cli {
             Command::Verify(command) => command.run(),
             Command::Survey(command) => command.run(),
             Command::Generate(command) => command.run(),
+            Command::Key(command) => command.run(),
             Command::Experiment(command) => command.run(),
             Command::Openapi => output::print(&api::openapi_json()),
             Command::Healthcheck(command) => command.run(),

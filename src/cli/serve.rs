@@ -45,8 +45,11 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let shutdown = stop_signal().map_err(broken)?;
     let listen = listener.local_addr().map_err(broken)?;
     config.server.connections = open_files::room_for(config.server.connections);
+    if let Some(warning) = config.warning() {
+        tracing::warn!(%listen, "{warning}");
+    }
     tracing::info!(%listen, threads = config.server.threads, "serving");
-    output::print(&greeting(listen))?;
+    output::print(&greeting(listen, config.server.api_keys_file.is_some()))?;
     api::run(listener, config.server, shutdown).await.map_err(broken)
 }
 
@@ -75,14 +78,15 @@ fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
 /// What a shell adds to the number of the signal that ended a process.
 const KILLED: i32 = 128;
 
-fn greeting(listen: SocketAddr) -> String {
+fn greeting(listen: SocketAddr, keys: bool) -> String {
     let host = if listen.ip().is_unspecified() { "localhost".to_owned() } else { listen.ip().to_string() };
     let host = if listen.is_ipv6() && host.contains(':') { format!("[{host}]") } else { host };
     let url = format!("http://{host}:{}", listen.port());
     let scene = SCENE.trim();
+    let key = if keys { " -H \"authorization: Bearer $KEY\"" } else { "" };
     format!(
         "singulate listens on {url} (interface: {url}/docs). Try:\n\n\
-         curl -s {url}/v1/plans -H 'content-type: application/json' -d '{scene}'\n\n"
+         curl -s {url}/v1/plans{key} -H 'content-type: application/json' -d '{scene}'\n\n"
     )
 }
 
@@ -100,8 +104,12 @@ mod tests {
 
     #[test]
     fn the_greeting_names_an_address_that_curl_can_reach() {
-        let line = |listen: &str| greeting(listen.parse().unwrap());
+        let line = |listen: &str| greeting(listen.parse().unwrap(), false);
         assert!(line("0.0.0.0:80").contains("curl -s http://localhost:80/v1/plans"));
         assert!(line("[::1]:80").contains("curl -s http://[::1]:80/v1/plans"));
+        let with_key = "/v1/plans -H \"authorization: Bearer $KEY\" -H";
+        assert!(
+            greeting("127.0.0.1:80".parse().unwrap(), true).contains(with_key) && !line("[::1]:80").contains("$KEY")
+        );
     }
 }

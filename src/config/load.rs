@@ -134,6 +134,7 @@ fn read(path: &Path, faults: &mut Vec<String>) -> Vec<(&'static Setting, Source,
         match value {
             toml::Value::String(text) => found.push((setting, source, text)),
             toml::Value::Integer(number) => found.push((setting, source, number.to_string())),
+            toml::Value::Boolean(yes) if setting.is_switch() => found.push((setting, source, yes.to_string())),
             toml::Value::Float(number) => found.push((setting, source, number.to_string())),
             other => faults.push(format!("{source}: a {} is no value for this setting", other.type_str())),
         }

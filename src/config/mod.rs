@@ -7,6 +7,7 @@ mod settings;
 use std::net::{Ipv4Addr, SocketAddr};
 
 use crate::api::ServerSettings;
+use crate::keys::Keys;
 
 pub use load::{ConfigError, Source, Stated, load};
 pub use setting::{Scope, Setting};
@@ -21,6 +22,8 @@ pub struct Config {
     pub listen: SocketAddr,
     /// The service and its limits.
     pub server: ServerSettings,
+    /// That everybody may call, wherever the service listens.
+    pub insecure: bool,
     /// Which log lines are written, as `tracing` filters are written.
     pub log: String,
     /// How they are written.
@@ -33,14 +36,46 @@ impl Config {
     /// What a service needs beyond settings that are sound one by one.
     ///
     /// # Errors
-    /// What is missing.
+    /// What is missing, contradictory or faulty.
     pub fn check_service(&self) -> Result<(), ConfigError> {
         let jobs = &self.server.jobs;
+        let mut faults = Vec::new();
         if !jobs.callback_allow.is_empty() && jobs.callback_secret.is_none() {
             let fault = "callback_allow needs callback_secret: a receiver could not tell our callbacks from others'";
-            return Err(ConfigError(vec![fault.to_owned()]));
+            faults.push(fault.to_owned());
         }
-        Ok(())
+        match &self.server.api_keys_file {
+            Some(_) if self.insecure => {
+                faults.push("insecure serves everybody, api_keys_file only some: choose one of them".to_owned());
+            }
+            Some(path) => faults.extend(Keys::open(path).err().into_iter().flat_map(|error| error.0)),
+            None if self.insecure || self.listen.ip().is_loopback() => {}
+            None => faults.push(self.without_keys()),
+        }
+        if faults.is_empty() { Ok(()) } else { Err(ConfigError(faults)) }
+    }
+
+    /// Why there is no service where others could reach it and nobody said who may.
+    fn without_keys(&self) -> String {
+        let listen = self.listen;
+        format!(
+            "Others can reach {listen}, and nothing says who may call. Either make keys:\n\n  \
+             singulate key new NAME --api-keys-file keys.toml\n  \
+             singulate serve --listen {listen} --api-keys-file keys.toml\n\n\
+             or let everybody in who can reach it:\n\n  \
+             singulate serve --listen {listen} --insecure\n\n\
+             The variables SINGULATE_API_KEYS_FILE=FILE and SINGULATE_INSECURE=true do the same."
+        )
+    }
+
+    /// What is worth a warning at the start: that everybody may call, unless somebody said so and only this machine is
+    /// meant.
+    pub fn warning(&self) -> Option<&'static str> {
+        match (&self.server.api_keys_file, self.insecure, self.listen.ip().is_loopback()) {
+            (Some(_), ..) | (None, true, true) => None,
+            (None, false, _) => Some("NO KEYS: every program of this machine may call; see --api-keys-file"),
+            (None, true, false) => Some("NO KEYS: whoever reaches the service may call; see --api-keys-file"),
+        }
     }
 }
 
@@ -49,6 +84,7 @@ impl Default for Config {
         Self {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
             server: ServerSettings::default(),
+            insecure: false,
             log: "info".to_owned(),
             log_format: LogFormat::default(),
             otlp_endpoint: None,

@@ -38,6 +38,8 @@ pub(super) enum Value {
     Whole { least: u64, most: u64, field: fn(&mut Config) -> &mut usize },
     /// A number.
     Number { least: f64, most: f64, field: fn(&mut Config) -> &mut f64 },
+    /// Yes or no; its flag alone says yes.
+    Switch { field: fn(&mut Config) -> &mut bool },
     /// A time, up to a day.
     Milliseconds { least: u64, field: fn(&mut Config) -> &mut Duration },
     /// Something of its own: how it is read, and how it is shown.
@@ -55,6 +57,11 @@ impl Setting {
         format!("SINGULATE_{}", self.name.to_uppercase())
     }
 
+    /// True if its flag needs no value.
+    pub fn is_switch(&self) -> bool {
+        matches!(self.value, Value::Switch { .. })
+    }
+
     /// Write a value into the configuration.
     ///
     /// # Errors
@@ -69,6 +76,9 @@ impl Setting {
                 let value = text.parse().ok().filter(|value| (least..=most).contains(value));
                 *field(config) = value.ok_or_else(|| format!("'{text}' is not a number from {least} to {most}"))?;
             }
+            Value::Switch { field } => {
+                *field(config) = text.parse().map_err(|_| format!("'{text}' is neither true nor false"))?;
+            }
             Value::Milliseconds { least, field } => *field(config) = Duration::from_millis(whole(text, least, MAX_MS)?),
             Value::Other { set, .. } => set(config, text)?,
         }
@@ -81,6 +91,7 @@ impl Setting {
         match self.value {
             Value::Whole { field, .. } => field(&mut config).to_string(),
             Value::Number { field, .. } => field(&mut config).to_string(),
+            Value::Switch { field } => field(&mut config).to_string(),
             Value::Milliseconds { field, .. } => field(&mut config).as_millis().to_string(),
             Value::Other { get, .. } => get(&config),
         }
@@ -112,9 +123,10 @@ mod tests {
         for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = setting.set(&mut Config::default(), text);
-                // A host may be called so.
+                // A host may be called so, and a file nearly anything.
                 let host = setting.name == "callback_allow" && text == "1e99";
-                assert!(outcome.is_err() || setting.name == "log" || host, "{} takes '{text}'", setting.name);
+                let file = setting.placeholder == "FILE" && !text.is_empty();
+                assert!(outcome.is_err() || setting.name == "log" || host || file, "{} takes '{text}'", setting.name);
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Every setting, each once.
 
+use std::path::{Path, PathBuf};
+
 use super::setting::{Scope, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
@@ -8,6 +10,19 @@ use crate::telemetry::LogFormat;
 const MAX_COUNT: u64 = 1_000_000;
 /// 1 GB.
 const MAX_BYTES: u64 = 1_000_000_000;
+
+/// A file, or none.
+fn file(text: &str) -> Result<Option<PathBuf>, String> {
+    match text {
+        "" => Err("a file has a name".to_owned()),
+        "none" => Ok(None),
+        _ => Ok(Some(PathBuf::from(text))),
+    }
+}
+
+fn shown(file: Option<&Path>) -> String {
+    file.map_or("none".to_owned(), |path| path.display().to_string())
+}
 
 /// Every setting.
 pub static SETTINGS: &[Setting] = &[
@@ -23,6 +38,39 @@ pub static SETTINGS: &[Setting] = &[
                 Ok(())
             },
             get: |config| config.listen.to_string(),
+        },
+    },
+    Setting {
+        name: "api_keys_file",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The keys of those who may call, see `singulate key new`; read again when it changes",
+        value: Value::Other {
+            set: |config, text| {
+                config.server.api_keys_file = file(text)?;
+                Ok(())
+            },
+            get: |config| shown(config.server.api_keys_file.as_deref()),
+        },
+    },
+    Setting {
+        name: "insecure",
+        scope: Scope::Service,
+        placeholder: "true|false",
+        help: "Serve without keys: whoever reaches the service may use it",
+        value: Value::Switch { field: |config| &mut config.insecure },
+    },
+    Setting {
+        name: "cors_origins",
+        scope: Scope::Service,
+        placeholder: "ORIGINS",
+        help: "Where pages may come from that call from a browser, such as https://cell.example.com; separated by commas",
+        value: Value::Other {
+            set: |config, text| {
+                config.server.cors_origins = text.parse()?;
+                Ok(())
+            },
+            get: |config| config.server.cors_origins.to_string(),
         },
     },
     Setting {

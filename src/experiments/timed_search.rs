@@ -5,15 +5,12 @@ use core::time::Duration;
 use super::workers::Patience;
 use crate::budget::{Budget, Clock};
 use crate::knowledge::KnowledgeBase;
-use crate::paper::{Conclusion, forward_astar, lobs};
-use crate::plan::SearchMethod;
+use crate::plan::{SearchLimits, SearchMethod, Sought, seek_within};
 use crate::scene::ObjectIndex;
-use crate::search::{Outcome, Restriction, least};
 
-/// The most states of the baseline, some 100 bytes each for the paper's scenes, whose sets of objects fit into one word.
-const MAX_ASTAR_STATES: usize = 5_000_000;
-/// The most objects in OPEN, or in one product of premises, of LOBS: some 50 MB.
-const MAX_LOBS_MEMBERS: usize = 5_000_000;
+/// Some 100 bytes a state of the baseline for the paper's scenes, whose sets of objects fit into one word; some 50 MB for
+/// LOBS.
+const LIMITS: SearchLimits = SearchLimits { lobs_members: 5_000_000, astar_states: 5_000_000, astar_words: 5_000_000 };
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,20 +42,12 @@ pub(super) fn timed_search(
 ) -> TimedSearch {
     let watch = patience.watch();
     let budget = Budget::new(&watch, patience.limit);
-    let concluded = |conclusion| match conclusion {
-        Ok(Conclusion::Sequence(derivation)) => Ending::Sequence(derivation.order.len()),
-        Ok(Conclusion::Deadlock) => Ending::Deadlock,
-        Ok(Conclusion::TooLarge) => Ending::TooLarge,
-        Err(_) => Ending::Late,
-    };
-    let ending = match method {
-        SearchMethod::ForwardAstar => concluded(forward_astar(base, target, MAX_ASTAR_STATES, &budget)),
-        SearchMethod::Lobs => concluded(lobs(base, target, MAX_LOBS_MEMBERS, &budget)),
-        SearchMethod::Landmarks => match least(base, target, &Restriction::default(), &budget) {
-            Outcome::Least(known) => Ending::Sequence(known.bound),
-            Outcome::Underivable => Ending::Deadlock,
-            Outcome::Interrupted(_) => Ending::Late,
-        },
+    let ending = match seek_within(method, base, target, &LIMITS, &budget) {
+        Sought::Least(known) => Ending::Sequence(known.bound),
+        Sought::Sequence(derivation) => Ending::Sequence(derivation.order.len()),
+        Sought::Nothing => Ending::Deadlock,
+        Sought::Best(_) | Sought::TooLate => Ending::Late,
+        Sought::TooLarge => Ending::TooLarge,
     };
     let time = match ending {
         Ending::Sequence(_) | Ending::Deadlock => watch.elapsed(),

@@ -72,7 +72,11 @@ impl Families {
         time(&mut registry, "planning_phase", "The parts of planning", &self.phases);
         time(&mut registry, "planning", "Planning as a whole, by its verdict", &self.planning);
         time(&mut registry, "store", "Calls of the store of jobs", &self.store);
-        registry.register("requests_refused", "Requests in order that were turned away", self.refused.clone());
+        registry.register(
+            "requests_refused",
+            "Requests that were turned away, whatever they asked for",
+            self.refused.clone(),
+        );
         registry.register("jobs", "Jobs that have not ended, in the whole store", self.jobs.clone());
         registry.register("jobs_ended", "Jobs that this server saw end", self.jobs_ended.clone());
         registry.register("job_attempts", "The number of each attempt at a job, from 1", self.attempts.clone());

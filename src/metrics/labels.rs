@@ -34,7 +34,7 @@ words! {
 }
 
 words! {
-    /// Why a request was turned away that was in order.
+    /// Why a request was turned away, whatever it asked for.
     Refusal {
         /// Every thread is busy and the queue is full.
         Full = "full",
@@ -46,6 +46,12 @@ words! {
         StoreUnavailable = "store_unavailable",
         /// As many wait, or watch, as may.
         Limit = "limit",
+        /// No key, or one that does not hold.
+        Unauthorized = "unauthorized",
+        /// A key for something else.
+        Forbidden = "forbidden",
+        /// A key that was used too often.
+        RateExceeded = "rate_exceeded",
     }
 }
 
@@ -108,7 +114,7 @@ mod tests {
         ]
         .concat();
         assert!(all.iter().all(|word| word.bytes().all(|byte| byte == b'_' || byte.is_ascii_lowercase())), "{all:?}");
-        assert_eq!(Refusal::ALL.len(), 5);
+        assert_eq!(Refusal::ALL.len(), 8);
     }
 
     #[test]

@@ -54,7 +54,7 @@ impl Metrics {
         self.families.requests.get_or_create(&labels).observe(took.as_secs_f64());
     }
 
-    /// A request in order was turned away.
+    /// A request was turned away.
     pub fn refused(&self, refusal: Refusal) {
         self.families.refused.get_or_create(&[("reason", refusal.as_str())]).inc();
     }

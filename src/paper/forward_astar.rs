@@ -53,22 +53,21 @@ impl Reached {
         &self.words[state * self.width..][..self.width]
     }
 
-    fn contains(&self, set: &[u64]) -> bool {
-        let Some(mut state) = self.latest.get(&digest(set)).copied() else { return false };
-        while self.set(state) != set {
-            if self.before[state] == state {
+    /// Take in the set of the next state. False if it was reached before.
+    fn insert(&mut self, set: &[u64]) -> bool {
+        let (digest, state) = (digest(set), self.before.len());
+        let latest = self.latest.get(&digest).copied();
+        let mut next = latest;
+        while let Some(other) = next {
+            if self.set(other) == set {
                 return false;
             }
-            state = self.before[state];
+            next = Some(self.before[other]).filter(|before| *before != other);
         }
-        true
-    }
-
-    /// The set of the next state.
-    fn push(&mut self, set: &[u64]) {
-        let state = self.before.len();
         self.words.extend_from_slice(set);
-        self.before.push(self.latest.insert(digest(set), state).unwrap_or(state));
+        self.before.push(latest.unwrap_or(state));
+        self.latest.insert(digest, state);
+        true
     }
 }
 
@@ -91,9 +90,12 @@ pub fn forward_astar(
     max_states: usize,
     budget: &Budget<'_>,
 ) -> Result<Conclusion, Interrupted> {
+    if base.options(target).next().is_none() {
+        return Ok(Conclusion::Deadlock);
+    }
     let mut reached = Reached::new(base.len());
-    reached.push(&vec![0; reached.width]);
-    let Some(h) = g_min(base, target, reached.set(START)) else { return Ok(Conclusion::Deadlock) };
+    reached.insert(&vec![0; reached.width]);
+    let h = g_min(base, target, reached.set(START));
     let start = Step { object: target, before: START };
     let mut forward =
         Forward { base, target, steps: vec![start], open: BinaryHeap::from([Reverse((h, h, START))]), reached };
@@ -120,10 +122,8 @@ impl Forward<'_> {
                 continue;
             }
             set(&mut relocated, object, true);
-            if !self.reached.contains(&relocated)
-                && let Some(h) = g_min(self.base, self.target, &relocated)
-            {
-                self.reached.push(&relocated);
+            if self.reached.insert(&relocated) {
+                let h = g_min(self.base, self.target, &relocated);
                 self.open.push(Reverse((g + 1 + h, h, self.steps.len())));
                 self.steps.push(Step { object, before: state });
             }
@@ -143,9 +143,9 @@ impl Forward<'_> {
     }
 }
 
-/// G_min: the fewest obstacles that still block the target at any yaw. `None` if it has no option at all.
-fn g_min(base: &KnowledgeBase, target: ObjectIndex, relocated: &[u64]) -> Option<usize> {
-    base.options(target).map(|option| standing(option, relocated)).min()
+/// G_min: the fewest obstacles that still block the target, which has an option, at any yaw.
+fn g_min(base: &KnowledgeBase, target: ObjectIndex, relocated: &[u64]) -> usize {
+    base.options(target).map(|option| standing(option, relocated)).min().unwrap_or(0)
 }
 
 fn standing(option: &[ObjectIndex], relocated: &[u64]) -> usize {

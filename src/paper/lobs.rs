@@ -42,11 +42,12 @@ pub fn lobs(
     // 1-4
     let root = Node { g: 0, number: 0, o_c: vec![target], o_s_r: vec![target] };
     let mut open = BinaryHeap::from([Reverse(root)]);
-    let (mut number, mut members) = (0, 0);
+    // The root holds the target twice.
+    let (mut number, mut members) = (0, 2);
     // 5-7
     while let Some(Reverse(node)) = open.pop() {
         budget.check()?;
-        members -= if node.number == 0 { 0 } else { node.o_c.len() + node.o_s_r.len() };
+        members -= node.o_c.len() + node.o_s_r.len();
         // 8-12
         let d: Vec<Vec<Clause>> = node.o_c.iter().filter(|o| !is_true(base, **o)).map(|o| premise(base, *o)).collect();
         // 13-14

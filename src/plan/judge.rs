@@ -8,7 +8,7 @@ use super::planner::prove_deadlock;
 use super::settings::{GraspModel, SearchMethod, Settings};
 use super::sought::{Sought, seek};
 use super::warning::Warning;
-use crate::budget::Budget;
+use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, relevant, swept_finger_options};
 use crate::paper::tangent_angles;
 use crate::scene::Scene;
@@ -29,7 +29,11 @@ pub(super) fn judge(
     let budget = budget.share(SHARE);
     let sectors = settings.grasp_model == GraspModel::Sector;
     if sectors {
-        count_tangent_angles(scene, sought.as_ref().map(|(base, _)| base), warnings);
+        let base = sought.as_ref().map(|(base, _)| base);
+        // Not counted to the end is not counted.
+        if let Ok(pairs @ 1..) = count_tangent_angles(scene, base, &budget) {
+            warnings.push(Warning::TangentAngle { pairs });
+        }
     }
     let Some((base, sought)) = sought else { return verdict };
     let exact = (settings.search != SearchMethod::Landmarks)
@@ -60,12 +64,14 @@ pub(super) fn unproven_by(settings: &Settings) -> &'static str {
 }
 
 /// Of the grasps that knowledge was asked for.
-fn count_tangent_angles(scene: &Scene, base: Option<&KnowledgeBase>, warnings: &mut Vec<Warning>) {
+fn count_tangent_angles(
+    scene: &Scene,
+    base: Option<&KnowledgeBase>,
+    budget: &Budget<'_>,
+) -> Result<usize, Interrupted> {
     let asked = |object| object == scene.target() || base.is_some_and(|base| base.options(object).next().is_some());
-    let pairs = scene.indices().filter(|object| asked(*object)).map(|object| tangent_angles(scene, object)).sum();
-    if pairs > 0 {
-        warnings.push(Warning::TangentAngle { pairs });
-    }
+    let pairs = |object| budget.check().map(|()| tangent_angles(scene, object));
+    scene.indices().filter(|object| asked(*object)).map(pairs).sum()
 }
 
 /// What the exact search has against the paper's, on one base. It need not have come to its end: a derivation is enough.

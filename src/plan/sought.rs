@@ -8,15 +8,22 @@ use crate::paper::{Conclusion, forward_astar, lobs};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Derivation, LeastSet, Outcome, Restriction, least};
 
-/// The most objects in OPEN, or in one product of premises, of LOBS: some 20 MB, and some 20 ms to give them back.
-const MAX_LOBS_MEMBERS: usize = 2_000_000;
-/// The most states of A*: some 50 MB for a scene of 64 objects.
-const MAX_ASTAR_STATES: usize = 500_000;
-/// The most words of all of A*'s sets together, which matters where there are many objects.
-const MAX_ASTAR_WORDS: usize = 4_000_000;
+/// How much the paper's searches may keep in memory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SearchLimits {
+    /// The most objects in OPEN, or in one product of premises, of LOBS.
+    pub(crate) lobs_members: usize,
+    /// The most states of A*.
+    pub(crate) astar_states: usize,
+    /// The most words of all of A*'s sets together, which matters where there are many objects.
+    pub(crate) astar_words: usize,
+}
+
+/// For a request: some 20 MB, and some 20 ms to give them back; some 50 MB for a scene of 64 objects.
+const LIMITS: SearchLimits = SearchLimits { lobs_members: 2_000_000, astar_states: 500_000, astar_words: 4_000_000 };
 
 /// What a search says.
-pub(super) enum Sought {
+pub(crate) enum Sought {
     /// A least set, with proof.
     Least(LeastSet),
     /// The best set so far; the budget ended.
@@ -47,8 +54,19 @@ impl SearchMethod {
     }
 }
 
-/// Search for what frees the target.
+/// Search for what frees the target, within the limits of a request.
 pub(super) fn seek(method: SearchMethod, base: &KnowledgeBase, target: ObjectIndex, budget: &Budget<'_>) -> Sought {
+    seek_within(method, base, target, &LIMITS, budget)
+}
+
+/// Search for what frees the target.
+pub(crate) fn seek_within(
+    method: SearchMethod,
+    base: &KnowledgeBase,
+    target: ObjectIndex,
+    limits: &SearchLimits,
+    budget: &Budget<'_>,
+) -> Sought {
     match method {
         SearchMethod::Landmarks => match least(base, target, &Restriction::default(), budget) {
             Outcome::Least(known) => Sought::Least(known),
@@ -56,10 +74,10 @@ pub(super) fn seek(method: SearchMethod, base: &KnowledgeBase, target: ObjectInd
             Outcome::Interrupted(Some(known)) => Sought::Best(known),
             Outcome::Interrupted(None) => Sought::TooLate,
         },
-        SearchMethod::Lobs => concluded(lobs(base, target, MAX_LOBS_MEMBERS, budget)),
+        SearchMethod::Lobs => concluded(lobs(base, target, limits.lobs_members, budget)),
         SearchMethod::ForwardAstar => {
-            let words = base.len().div_ceil(64);
-            concluded(forward_astar(base, target, MAX_ASTAR_STATES.min(MAX_ASTAR_WORDS / words), budget))
+            let words = base.len().div_ceil(64).max(1);
+            concluded(forward_astar(base, target, limits.astar_states.min(limits.astar_words / words), budget))
         }
     }
 }

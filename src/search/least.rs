@@ -116,13 +116,10 @@ impl<'p> Search<'p> {
             if self.settle_by_hitting(choices, pace)? {
                 return Ok(());
             }
-            let known = Known {
-                problem: self.problem,
-                forced: &self.forced,
-                excused: &self.excused,
-                landmarks: &self.landmarks,
+            let mut by_clauses = match wishes.take() {
+                Some(by_clauses) => by_clauses,
+                None => self.wishes(pace)?,
             };
-            let mut by_clauses = wishes.take().map_or_else(|| Wishes::new(&known, pace), Ok)?;
             let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, pace));
             self.bound = self.bound.max(by_clauses.bound());
             pace.note(self.best.len(), self.bound);
@@ -133,6 +130,13 @@ impl<'p> Search<'p> {
             wishes = Some(by_clauses);
             (choices, conflicts) = (choices.saturating_mul(2), conflicts.saturating_mul(2));
         }
+    }
+
+    /// The question by clauses. It knows the landmarks of now; those of later turns it has no need of.
+    fn wishes<'b>(&self, pace: &mut Pace<'b>) -> Result<Wishes<'p, 'b>, Interrupted> {
+        let known =
+            Known { problem: self.problem, forced: &self.forced, excused: &self.excused, landmarks: &self.landmarks };
+        Wishes::new(&known, pace)
     }
 
     /// True if that many choices are enough.

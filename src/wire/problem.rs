@@ -46,6 +46,15 @@ pub enum ProblemKind {
     /// The body is JSON, but not a request that can be answered.
     #[serde(rename = "urn:singulate:problem:invalid_request")]
     InvalidRequest,
+    /// No key, or one that does not hold.
+    #[serde(rename = "urn:singulate:problem:unauthorized")]
+    Unauthorized,
+    /// The key is for something else.
+    #[serde(rename = "urn:singulate:problem:forbidden")]
+    Forbidden,
+    /// The key was used more often than it may be.
+    #[serde(rename = "urn:singulate:problem:rate_exceeded")]
+    RateExceeded,
     /// Nothing lives at this path.
     #[serde(rename = "urn:singulate:problem:not_found")]
     NotFound,
@@ -112,6 +121,9 @@ impl ProblemKind {
             Self::MalformedJson => (400, "The body is not JSON"),
             Self::BrokenBody => (400, "The body is incomplete"),
             Self::MalformedHttp => (400, "The request is not HTTP"),
+            Self::Unauthorized => (401, "A key is needed"),
+            Self::Forbidden => (403, "The key is not for this"),
+            Self::RateExceeded => (429, "Too many requests"),
             Self::NotFound => (404, "Nothing lives at this path"),
             Self::MethodNotAllowed => (405, "The method is not allowed here"),
             Self::NotAcceptable => (406, "No acceptable representation"),

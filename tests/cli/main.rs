@@ -8,6 +8,7 @@ mod errors;
 mod experiments;
 #[path = "../service/hard.rs"]
 mod hard;
+mod keys;
 mod log;
 mod readme;
 mod scenes;

@@ -1,5 +1,6 @@
 //! Where the servers of one test keep their jobs.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -64,7 +65,8 @@ impl Drop for Database {
 pub(crate) fn variable(name: &str) -> Option<String> {
     let value = std::env::var(name).ok();
     if value.is_none() {
-        println!("not run: {name} is not set");
+        // Neither print! nor eprint!, which are shown only of tests that fail. Where nobody can read it, nobody needs it.
+        let _ = writeln!(std::io::stderr(), "not run: {name} is not set");
     }
     value
 }

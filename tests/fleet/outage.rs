@@ -52,8 +52,8 @@ impl Drop for Away {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_thousand_jobs_outlive_a_restart_of_their_database() {
-    let Some(database) = Database::in_postgres().await else { return };
     let Some(restart) = variable("TEST_POSTGRES_RESTART") else { return };
+    let Some(database) = Database::in_postgres().await else { return };
     let flags = ["--job-lease-ms", &LEASE.as_millis().to_string()];
     let servers = [Server::start(&database.url, &flags), Server::start(&database.url, &flags)];
     let urls = servers.each_ref().map(|server| server.url.as_str());

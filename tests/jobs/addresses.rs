@@ -100,7 +100,7 @@ async fn an_address_that_names_no_file_is_refused() {
 async fn a_writer_whose_transaction_was_ended_behind_its_back_is_replaced() {
     let home = Home::in_a_file();
     let store = home.store().await;
-    // No page more than there are, as on a full disk: the next large job does not fit.
+    // A statement that fails so ends the whole transaction, as a full disk does.
     let mut other = SqliteConnection::connect(&home.settings.url).await.unwrap();
     sqlx::query("CREATE TRIGGER full BEFORE INSERT ON jobs WHEN length(NEW.body) > 1000 BEGIN SELECT RAISE(ROLLBACK, 'full'); END")
         .execute(&mut other)

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "what fails here fails the test")]
 
 mod bodies;
+mod browsers;
 mod connections;
 mod document;
 mod draining;
@@ -12,6 +13,7 @@ mod haste;
 mod host;
 mod hostile;
 mod jobs;
+mod keys;
 mod knowledge;
 mod metrics;
 mod negotiation;

@@ -108,7 +108,7 @@ fn every_family_is_described_and_counts_what_is_recorded() {
         ("http_request_seconds", "status=\"hung_up\"", 1.0),
         ("http_request_seconds", "route=\"/v1/jobs/{id}\"", 1.0),
         ("http_request_seconds", "method=\"other\"", 1.0),
-        ("requests_refused", "reason=", 5.0),
+        ("requests_refused", "reason=", 8.0),
         ("queue_wait_seconds", "kind=", 2.0),
         ("planning_phase_seconds", "phase=", 4.0),
         ("planning_seconds", "verdict=\"timed_out\"", 1.0),

@@ -15,6 +15,7 @@ use super::accepted::accepted;
 use super::problems::{JobProblems, not_accepted, unavailable};
 use super::query::Parameters;
 use super::submission::{Shape, check_callbacks, key, new_jobs};
+use crate::api::access::Caller;
 use crate::api::app::App;
 use crate::api::document::RequestProblems;
 use crate::api::reading::Read;
@@ -52,9 +53,13 @@ const DEFAULT_PAGE: u64 = 20;
         RequestProblems,
     )
 )]
-pub(in crate::api) async fn submit(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
+pub(in crate::api) async fn submit(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    request: Request<Body>,
+) -> Result<Response, Problem> {
     let read: Read<Vec<JobRequest>> = |body, limits| Ok(vec![read_job(body, limits)?]);
-    let jobs = take(&app, request, (read, Shape::One)).await?;
+    let jobs = take(&app, &caller.owner, request, (read, Shape::One)).await?;
     let job = jobs.first().ok_or_else(crate::api::problem::internal)?;
     Ok(accepted(Some(job.id), job.body()))
 }
@@ -76,8 +81,12 @@ pub(in crate::api) async fn submit(State(app): State<Arc<App>>, request: Request
         RequestProblems,
     )
 )]
-pub(in crate::api) async fn batch(State(app): State<Arc<App>>, request: Request<Body>) -> Result<Response, Problem> {
-    let jobs = take(&app, request, (read_batch, Shape::Batch)).await?;
+pub(in crate::api) async fn batch(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    request: Request<Body>,
+) -> Result<Response, Problem> {
+    let jobs = take(&app, &caller.owner, request, (read_batch, Shape::Batch)).await?;
     Ok(accepted(None, JobsBody { jobs: jobs.iter().map(Job::body).collect() }))
 }
 
@@ -101,6 +110,7 @@ pub(in crate::api) async fn batch(State(app): State<Arc<App>>, request: Request<
 )]
 pub(in crate::api) async fn list(
     State(app): State<Arc<App>>,
+    caller: Caller,
     parameters: Parameters,
 ) -> Result<Json<JobListBody>, Problem> {
     let parameters = parameters.only(&["state", "cursor", "limit"])?;
@@ -111,7 +121,7 @@ pub(in crate::api) async fn list(
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     // One more tells whether there are more.
     let page = Page { state, before, limit: limit + 1 };
-    let jobs = app.store.list(&Owner::anonymous(), page).await.map_err(|error| unavailable(&app, &error))?;
+    let jobs = app.store.list(&caller.owner, page).await.map_err(|error| unavailable(&app, &error))?;
     let next_cursor = (jobs.len() > limit).then(|| jobs[limit - 1].id.to_string());
     Ok(Json(JobListBody { jobs: jobs.iter().take(limit).map(Job::body).collect(), next_cursor }))
 }
@@ -119,6 +129,7 @@ pub(in crate::api) async fn list(
 /// The jobs that a body asks for, kept by the store.
 async fn take(
     app: &Arc<App>,
+    owner: &Owner,
     request: Request<Body>,
     (read, shape): (Read<Vec<JobRequest>>, Shape),
 ) -> Result<Vec<Job>, Problem> {
@@ -134,14 +145,13 @@ async fn take(
             return Err(Problem::new(ProblemKind::Overloaded, detail));
         }
     };
-    let (owner, allow) = (Owner::anonymous(), app.settings.jobs.callback_allow.clone());
-    let own = owner.clone();
+    let (own, allow) = (owner.clone(), app.settings.jobs.callback_allow.clone());
     let new = move |body: &[u8], limits: &RequestLimits| {
         let mut requests = read(body, limits)?;
         check_callbacks(&mut requests, shape, &allow)?;
         Ok(new_jobs(requests, body, &own, key.as_deref()))
     };
-    let jobs = app.read(&owner, arrival, body, new).await?;
+    let jobs = app.read(owner, arrival, body, new).await?;
     if let [job] = &jobs[..] {
         edge::note_scene(job.scene_id.as_deref());
     }

@@ -15,8 +15,9 @@ use tokio::time::sleep;
 
 use super::one::{LOOK_AGAIN, find};
 use super::problems::{OneJobProblems, job_id};
+use crate::api::access::Caller;
 use crate::api::app::App;
-use crate::jobs::{Job, JobId, Owner, Watcher};
+use crate::jobs::{Job, JobId, Watcher};
 use crate::metrics::{Open, Refusal};
 use crate::wire::{JobEventBody, Problem, ProblemKind};
 
@@ -44,12 +45,13 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 )]
 pub(in crate::api) async fn events(
     State(app): State<Arc<App>>,
+    caller: Caller,
     id: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let id = job_id(id)?;
     let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok());
-    let job = find(&app, id).await?;
+    let job = find(&app, &caller.owner, id).await?;
     // A name that no event of ours has begins anew.
     let seen = seen.filter(|seen| *seen <= job.events.len()).unwrap_or_default();
     if job.state.finished() && seen == job.events.len() {
@@ -59,13 +61,14 @@ pub(in crate::api) async fn events(
         app.metrics.refused(Refusal::Limit);
         Problem::new(ProblemKind::Overloaded, "as many clients listen to jobs as may; ask for the job instead")
     })?;
-    let listener = Listener::new(app, id, seen, slot);
+    let listener = Listener::new(app, caller, (id, seen), slot);
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// One client on its way through a job's events.
 struct Listener {
     app: Arc<App>,
+    caller: Caller,
     id: JobId,
     watcher: Watcher,
     /// How many events it has seen.
@@ -78,10 +81,10 @@ struct Listener {
 }
 
 impl Listener {
-    fn new(app: Arc<App>, id: JobId, seen: usize, slot: OwnedSemaphorePermit) -> Self {
+    fn new(app: Arc<App>, caller: Caller, (id, seen): (JobId, usize), slot: OwnedSemaphorePermit) -> Self {
         let watcher = app.store.hints().watch(id);
         let open = app.metrics.stream();
-        Self { app, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
+        Self { app, caller, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
     }
 
     fn messages(self) -> impl Stream<Item = Result<Message, Infallible>> {
@@ -100,7 +103,7 @@ impl Listener {
                 return None;
             }
             let changed = self.watcher.changed();
-            match self.app.store.get(&Owner::anonymous(), self.id).await {
+            match self.app.store.get(&self.caller.owner, self.id).await {
                 Ok(Some(job)) => self.take(&job),
                 Ok(None) => self.over = true,
                 // The store may be back soon.
@@ -110,6 +113,7 @@ impl Listener {
                 tokio::select! {
                     () = changed => {}
                     () = sleep(LOOK_AGAIN) => {}
+                    () = self.caller.locked_out() => self.over = true,
                     () = self.app.draining.wait() => {
                         self.ready.push_back(Message::default().event("draining").data("{}"));
                         self.over = true;

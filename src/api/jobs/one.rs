@@ -14,6 +14,7 @@ use tokio::time::sleep;
 use super::accepted::accepted;
 use super::problems::{OneJobProblems, job_id, no_such_job, unavailable};
 use super::query::Parameters;
+use crate::api::access::Caller;
 use crate::api::app::App;
 use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp};
 use crate::metrics::{Ended, Refusal};
@@ -44,12 +45,17 @@ pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
 )]
 pub(in crate::api) async fn show(
     State(app): State<Arc<App>>,
+    caller: Caller,
     id: Result<Path<String>, PathRejection>,
     parameters: Parameters,
 ) -> Result<Json<JobBody>, Problem> {
     let id = job_id(id)?;
     let wait = parameters.only(&["wait_ms"])?.number("wait_ms", 0..=MAX_WAIT_MS)?.unwrap_or_default();
-    let job = if wait == 0 { find(&app, id).await? } else { wait_for(&app, id, Duration::from_millis(wait)).await? };
+    let job = if wait == 0 {
+        find(&app, &caller.owner, id).await?
+    } else {
+        wait_for(&app, &caller, id, Duration::from_millis(wait)).await?
+    };
     Ok(Json(job.body()))
 }
 
@@ -71,10 +77,11 @@ pub(in crate::api) async fn show(
 )]
 pub(in crate::api) async fn cancel(
     State(app): State<Arc<App>>,
+    caller: Caller,
     id: Result<Path<String>, PathRejection>,
 ) -> Result<Response, Problem> {
     let id = job_id(id)?;
-    let cancelled = app.store.cancel(&Owner::anonymous(), id, Timestamp::now()).await;
+    let cancelled = app.store.cancel(&caller.owner, id, Timestamp::now()).await;
     match cancelled.map_err(|error| unavailable(&app, &error))? {
         Cancellation::Unknown => Err(no_such_job()),
         Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
@@ -106,9 +113,10 @@ pub(in crate::api) async fn cancel(
 )]
 pub(in crate::api) async fn forget(
     State(app): State<Arc<App>>,
+    caller: Caller,
     id: Result<Path<String>, PathRejection>,
 ) -> Result<StatusCode, Problem> {
-    let removal = app.store.forget(&Owner::anonymous(), job_id(id)?).await;
+    let removal = app.store.forget(&caller.owner, job_id(id)?).await;
     match removal.map_err(|error| unavailable(&app, &error))? {
         Removal::Unknown => Err(no_such_job()),
         Removal::Unfinished => Err(Problem::new(ProblemKind::JobUnfinished, "cancel it first")),
@@ -117,13 +125,13 @@ pub(in crate::api) async fn forget(
 }
 
 /// A job of the caller's.
-pub(super) async fn find(app: &App, id: JobId) -> Result<Job, Problem> {
-    let found = app.store.get(&Owner::anonymous(), id).await;
+pub(super) async fn find(app: &App, owner: &Owner, id: JobId) -> Result<Job, Problem> {
+    let found = app.store.get(owner, id).await;
     found.map_err(|error| unavailable(app, &error))?.ok_or_else(no_such_job)
 }
 
-/// The job once it has ended, or as it stands when the time is over or the service shuts down.
-async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> {
+/// The job once it has ended, or as it stands when the time is over, the service shuts down or the key no longer holds.
+async fn wait_for(app: &App, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
     let _waiting = app.waiting.try_acquire().map_err(|_| {
         app.metrics.refused(Refusal::Limit);
@@ -132,7 +140,7 @@ async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> 
     let watcher = app.store.hints().watch(id);
     loop {
         let changed = watcher.changed();
-        let job = find(app, id).await?;
+        let job = find(app, &caller.owner, id).await?;
         let left = wait.saturating_sub(started.elapsed());
         if job.state.finished() || left.is_zero() || app.draining.begun() {
             return Ok(job);
@@ -141,6 +149,7 @@ async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Job, Problem> 
             () = changed => {}
             () = sleep(left.min(LOOK_AGAIN)) => {}
             () = app.draining.wait() => {}
+            () = caller.locked_out() => return Ok(job),
         }
     }
 }

@@ -164,6 +164,7 @@ fn a_scene_that_does_not_hold_is_told_at_its_place() {
         ("/objects/1", far, "off_table", "/objects/1"),
         ("/objects/1", near, "overlap", "/objects/1"),
         ("/target", json!("nobody"), "unknown_target", "/target"),
+        ("/target", json!("x".repeat(129)), "id_length", "/target"),
         ("/target", json!("vase"), "fixed_target", "/target"),
         ("/scene_id", json!("x".repeat(257)), "id_length", "/scene_id"),
     ] {

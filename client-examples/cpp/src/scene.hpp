@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "answer.hpp"
+
+namespace singulate {
+
+/// The table as the client knows it, in the words of the request.
+class Scene {
+ public:
+  /// Any JSON will do: what makes a scene is for the service to say.
+  static Scene read(const std::string& path);
+
+  [[nodiscard]] std::string body() const { return document_.dump(); }
+  [[nodiscard]] std::chrono::milliseconds time_limit() const;
+  /// The same scene with ten times the time to plan, as far as the service gives it.
+  [[nodiscard]] Scene with_more_time() const;
+  void place(const std::string& object, Point to);
+
+ private:
+  explicit Scene(nlohmann::json document) : document_(std::move(document)) {}
+  nlohmann::json document_;
+};
+
+}  // namespace singulate

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "answer.hpp"
+#include "connection.hpp"
+#include "scene.hpp"
+
+namespace singulate {
+
+/// The planning service, asked until it answers.
+class Service {
+ public:
+  Service(const std::string& url, const std::string& key) : connection_(url + "/v1/plans", key) {}
+  [[nodiscard]] Answer plan(const Scene& scene);
+
+ private:
+  Connection connection_;
+};
+
+}  // namespace singulate

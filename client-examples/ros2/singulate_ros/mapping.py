@@ -1,0 +1,199 @@
+"""Messages to a scene. Needs no ROS: any objects with the messages' fields will do.
+
+All is in one frame, metres, z up. A message in another frame is refused; nothing is transformed.
+
+The table is a collision object that is one box along the frame's axes. Its top counts. The other collision objects are
+fixed, the detections can be moved. What stands beside the table or under its top is left out: whoever moves the arm has
+to see to it. What leans over the table from beside it is refused, as are meshes and planes.
+
+An object covers the smallest circle about its middle that holds its shadow on the table: half the diagonal for an
+upright box. Around a plate's bounding box that circle would be 1.4 times the plate, and plates that stand close would
+overlap. So those of the round classes count as upright cylinders inside their boxes: half the larger side, and more the
+further they lean.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Iterator, TypedDict
+
+from singulate_ros.failure import Failure
+from singulate_ros.footprint import Footprint, Placement, box, cylinder, sphere
+from singulate_ros.settings import Settings
+
+if TYPE_CHECKING:
+    from moveit_msgs.msg import CollisionObject, PlanningScene
+    from shape_msgs.msg import SolidPrimitive
+    from vision_msgs.msg import Detection3D, Detection3DArray
+
+# shape_msgs/SolidPrimitive
+BOX, SPHERE, CYLINDER = 1, 2, 3
+# The table's sides may be off the frame's axes by as much, rad: half a millimetre on half a metre.
+SQUARE_TOLERANCE = 1e-3
+# What is no higher above the table's top than this, m, is the table's or under it: no finger meets it.
+FLUSH = 1e-3
+
+
+class Rectangle(TypedDict):
+    x_min: float
+    y_min: float
+    x_max: float
+    y_max: float
+
+
+class Gripper(TypedDict):
+    fingers: int
+    finger_width: float
+    clearance: float
+    margin: float
+    yaw_tolerance: float
+
+
+class Disc(TypedDict):
+    id: str
+    x: float
+    y: float
+    radius: float
+    fixed: bool
+
+
+class Limits(TypedDict):
+    time_limit_ms: int
+
+
+class Scene(TypedDict):
+    """The body of a planning request."""
+
+    table: Rectangle
+    gripper: Gripper
+    objects: list[Disc]
+    target: str
+    settings: Limits
+
+
+def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settings: Settings) -> Scene:
+    """What is detected can be moved; the other collision objects are fixed. One that is both is taken as detected."""
+    if planning_scene.is_diff:
+        raise Failure("the planning scene is a diff; all of it is needed")
+    _check_frame("the detections", detections.header.frame_id, settings)
+    table, table_top = _table(planning_scene, settings)
+    found = [(name, footprint, False) for name, footprint in _detected(detections, settings)]
+    detected = {name for name, _, _ in found} | {settings.table}
+    for obstacle in planning_scene.world.collision_objects:
+        if obstacle.id not in detected:
+            found += [(name, footprint, True) for name, footprint in _solids(obstacle, settings)]
+    objects = [
+        Disc(id=name, x=footprint.x, y=footprint.y, radius=footprint.radius, fixed=fixed)
+        for name, footprint, fixed in found
+        if _is_on(table, table_top, footprint, name)
+    ]
+    _check_ids(objects, settings)
+    gripper = Gripper(
+        fingers=settings.fingers,
+        finger_width=settings.finger_width,
+        clearance=settings.clearance,
+        margin=settings.margin,
+        yaw_tolerance=settings.yaw_tolerance,
+    )
+    limits = Limits(time_limit_ms=settings.time_limit_ms)
+    return Scene(table=table, gripper=gripper, objects=objects, target=settings.target, settings=limits)
+
+
+def _check_frame(whose: str, frame: str, settings: Settings) -> None:
+    if frame != settings.frame:
+        raise Failure(f"{whose}: frame '{frame}' is not the table's, '{settings.frame}'")
+
+
+def _check_ids(objects: list[Disc], settings: Settings) -> None:
+    names = [each["id"] for each in objects]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise Failure(f"several objects have one id: {', '.join(twice)}")
+    if settings.target not in names:
+        raise Failure(f"the target '{settings.target}' is not on the table")
+
+
+def _table(planning_scene: PlanningScene, settings: Settings) -> tuple[Rectangle, float]:
+    """The table's rectangle and the height of its top."""
+    named = [each for each in planning_scene.world.collision_objects if each.id == settings.table]
+    if len(named) != 1 or len(named[0].primitives) != 1 or named[0].primitives[0].type != BOX:
+        raise Failure(f"the planning scene has no table '{settings.table}' that is one box")
+    ((solid, placement),) = _placed(named[0], settings)
+    length, width, height = _dimensions(solid, 3, settings.table)
+    footprint = box(placement, (length, width, height), settings.table)
+    along, across = abs(placement.rotation[0][0]), abs(placement.rotation[0][1])
+    if min(max(along, across), abs(placement.rotation[2][2])) < math.cos(SQUARE_TOLERANCE):
+        raise Failure(f"the sides of '{settings.table}' don't lie along the axes of '{settings.frame}'")
+    x, y = (length / 2, width / 2) if along > across else (width / 2, length / 2)
+    rectangle = Rectangle(
+        x_min=footprint.x - x, y_min=footprint.y - y, x_max=footprint.x + x, y_max=footprint.y + y
+    )
+    return rectangle, footprint.top
+
+
+def _detected(detections: Detection3DArray, settings: Settings) -> Iterator[tuple[str, Footprint]]:
+    for index, detection in enumerate(detections.detections):
+        kind = _class(detection)
+        # The index holds for one message only, and so does a name made of it.
+        name = detection.id or f"{kind}-{index}"
+        # Most detectors leave the frame to the array's header.
+        _check_frame(name, detection.header.frame_id or detections.header.frame_id, settings)
+        placement = Placement.of(detection.bbox.center, name)
+        x, y, z = detection.bbox.size.x, detection.bbox.size.y, detection.bbox.size.z
+        if kind in settings.round_classes:
+            yield name, cylinder(placement, max(x, y) / 2, z, name)
+        else:
+            yield name, box(placement, (x, y, z), name)
+
+
+def _class(detection: Detection3D) -> str:
+    """The likeliest class; 'object' where there is none."""
+    if not detection.results:
+        return "object"
+    return max((result.hypothesis for result in detection.results), key=lambda each: each.score).class_id
+
+
+def _solids(obstacle: CollisionObject, settings: Settings) -> Iterator[tuple[str, Footprint]]:
+    if obstacle.meshes or obstacle.planes:
+        raise Failure(f"'{obstacle.id}' has meshes or planes; boxes, cylinders and spheres are understood")
+    for index, (solid, placement) in enumerate(_placed(obstacle, settings)):
+        name = obstacle.id if len(obstacle.primitives) == 1 else f"{obstacle.id}/{index}"
+        if solid.type == BOX:
+            length, width, height = _dimensions(solid, 3, name)
+            yield name, box(placement, (length, width, height), name)
+        elif solid.type == CYLINDER:
+            height, radius = _dimensions(solid, 2, name)
+            yield name, cylinder(placement, radius, height, name)
+        elif solid.type == SPHERE:
+            (radius,) = _dimensions(solid, 1, name)
+            yield name, sphere(placement, radius, name)
+        else:
+            raise Failure(f"'{name}' is a solid of type {solid.type}; boxes, cylinders and spheres are understood")
+
+
+def _placed(obstacle: CollisionObject, settings: Settings) -> list[tuple[SolidPrimitive, Placement]]:
+    """Its solids, whose poses are relative to its own."""
+    _check_frame(obstacle.id, obstacle.header.frame_id, settings)
+    if len(obstacle.primitives) != len(obstacle.primitive_poses):
+        raise Failure(f"'{obstacle.id}' has not one pose for each solid")
+    whole = Placement.of(obstacle.pose, obstacle.id)
+    places = [whole.then(Placement.of(pose, obstacle.id)) for pose in obstacle.primitive_poses]
+    return list(zip(obstacle.primitives, places))
+
+
+def _dimensions(solid: SolidPrimitive, count: int, whose: str) -> list[float]:
+    if len(solid.dimensions) != count:
+        raise Failure(f"'{whose}' has {len(solid.dimensions)} dimensions, not {count}")
+    return list(solid.dimensions)
+
+
+def _is_on(table: Rectangle, table_top: float, footprint: Footprint, name: str) -> bool:
+    """False for what stands beside the table or under its top. What leans in from beside it fits no scene."""
+    beyond_x = max(table["x_min"] - footprint.x, footprint.x - table["x_max"], 0.0)
+    beyond_y = max(table["y_min"] - footprint.y, footprint.y - table["y_max"], 0.0)
+    beyond = math.hypot(beyond_x, beyond_y)
+    if footprint.top <= table_top + FLUSH or beyond >= footprint.radius:
+        return False
+    if beyond > 0.0:
+        raise Failure(f"'{name}' reaches over the table from beside it")
+    return True

@@ -1,0 +1,42 @@
+"""All from messages to plan. Needs no ROS; blocks its thread."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import TYPE_CHECKING, Callable
+
+from singulate_ros.answer import read_answer, to_poses
+from singulate_ros.failure import Failure
+from singulate_ros.mapping import to_scene
+from singulate_ros.service import ask
+from singulate_ros.settings import Settings
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time
+    from geometry_msgs.msg import Pose
+    from moveit_msgs.msg import PlanningScene
+    from vision_msgs.msg import Detection3DArray
+
+
+def plan(
+    detections: Detection3DArray,
+    planning_scene: PlanningScene,
+    settings: Settings,
+    now: Time,
+    new_pose: Callable[[], Pose],
+) -> tuple[list[Pose], str]:
+    """The poses in order, and the plan in words.
+
+    Asks the service at SINGULATE_URL with the key in SINGULATE_KEY: not parameters, which any node can read.
+    """
+    if not math.isfinite(settings.tool_z):
+        raise Failure("the parameter tool_z is not set")
+    stamp = detections.header.stamp
+    age = now.sec - stamp.sec + 1e-9 * (now.nanosec - stamp.nanosec)
+    if age > settings.max_age:
+        raise Failure(f"the detections are {age:.3f} s old")
+    scene = to_scene(detections, planning_scene, settings)
+    url = os.environ.get("SINGULATE_URL", "http://127.0.0.1:8080")
+    found = read_answer(ask(url, os.environ.get("SINGULATE_KEY", ""), scene), scene)
+    return to_poses(found, settings.tool_z, new_pose), found.words

@@ -1,0 +1,23 @@
+from dataclasses import dataclass
+from typing import Sequence
+
+
+@dataclass
+class SolidPrimitive:
+    BOX = 1
+    SPHERE = 2
+    CYLINDER = 3
+    CONE = 4
+
+    type: int = 0
+    dimensions: Sequence[float] = ()
+
+
+@dataclass
+class Mesh:
+    pass
+
+
+@dataclass
+class Plane:
+    coef: Sequence[float] = (0.0, 0.0, 0.0, 0.0)

@@ -1,0 +1,61 @@
+import { readFileSync } from "node:fs";
+
+import type { Point } from "./answer.js";
+import { exit, Failure } from "./failure.js";
+import { isFields, type Fields } from "./json.js";
+
+// What the service takes where a scene says nothing, and the most that it gives unless configured otherwise.
+const defaultTimeLimitMs = 1_000;
+const longestTimeLimitMs = 60_000;
+
+/**
+ * The table as the client knows it, in the words of the request. Any JSON will do: what makes a scene is for the service
+ * to say.
+ */
+export class Scene {
+  private constructor(private readonly document: unknown) {}
+
+  static read(path: string): Scene {
+    try {
+      return new Scene(JSON.parse(readFileSync(path, "utf8")));
+    } catch (error) {
+      throw new Failure(exit.refused, `${path} can't be read: ${String(error)}`);
+    }
+  }
+
+  get body(): string {
+    return JSON.stringify(this.document);
+  }
+
+  get timeLimitMs(): number {
+    const named = this.settings["time_limit_ms"];
+    return typeof named === "number" ? Math.min(Math.max(named, 0), longestTimeLimitMs) : defaultTimeLimitMs;
+  }
+
+  /** The same scene with ten times the time to plan, as far as the service gives it. */
+  withMoreTime(): Scene {
+    const settings = { ...this.settings, time_limit_ms: Math.min(10 * this.timeLimitMs, longestTimeLimitMs) };
+    return new Scene({ ...this.fields, settings });
+  }
+
+  /** The same scene with one object elsewhere. */
+  with(object: string, to: Point): Scene {
+    const objects: unknown = this.fields["objects"];
+    if (!Array.isArray(objects) || !objects.some((each) => isFields(each) && each["id"] === object)) {
+      throw new Failure(exit.refused, `the plan moves ${object}, which is not in the scene`);
+    }
+    const moved = objects.map((each: unknown) =>
+      isFields(each) && each["id"] === object ? { ...each, x: to.x, y: to.y } : each,
+    );
+    return new Scene({ ...this.fields, objects: moved });
+  }
+
+  private get fields(): Fields {
+    return isFields(this.document) ? this.document : {};
+  }
+
+  private get settings(): Fields {
+    const settings = this.fields["settings"];
+    return isFields(settings) ? settings : {};
+  }
+}

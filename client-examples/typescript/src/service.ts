@@ -1,0 +1,123 @@
+import { setTimeout as sleep } from "node:timers/promises";
+
+import { readAnswer, type Answer } from "./answer.js";
+import { exit, Failure } from "./failure.js";
+import { isFields } from "./json.js";
+import type { Scene } from "./scene.js";
+
+// After a lost connection; planning changes nothing, so to ask again is safe. One pause less than there are tries.
+const pausesMs = [200, 400, 800, 1_600];
+// A service that wants more patience than this is down, as far as a robot is concerned.
+const longestWaitSeconds = 60;
+// For the way there and back, on top of the time to plan.
+const transferMs = 5_000;
+
+/** No answer this time, but perhaps the next. Where the service names no wait, the next pause counts. */
+interface Again {
+  readonly reason: string;
+  readonly waitMs?: number;
+}
+
+type Outcome = { readonly answer: Answer } | { readonly again: Again };
+
+/** Nothing where it is not JSON. */
+function parse(body: string): unknown {
+  try {
+    return JSON.parse(body);
+  } catch {
+    return undefined;
+  }
+}
+
+/** What a problem document calls itself; something between client and service may answer without one. */
+function title(problem: unknown, status: number): string {
+  const words = isFields(problem) ? problem["title"] : undefined;
+  return typeof words === "string" ? words : `HTTP ${status}`;
+}
+
+/** Every fault of the scene on a line of its own. */
+function faults(problem: unknown): string {
+  const errors: unknown = isFields(problem) ? problem["errors"] : undefined;
+  const lines = Array.isArray(errors)
+    ? errors.filter(isFields).map((fault) => `${fault["code"]} ${fault["pointer"]}: ${fault["detail"]}`)
+    : [];
+  return lines.length > 0 ? lines.join("\n") : title(problem, 422);
+}
+
+/** Seconds, or a second where the header is absent or a date. */
+function retryAfterMs(header: string | null): number {
+  const seconds = header !== null && /^\d+$/.test(header) ? Number(header) : 1;
+  return 1_000 * Math.min(Math.max(seconds, 1), longestWaitSeconds);
+}
+
+function judge(response: Response, body: string): Outcome {
+  const document = parse(body);
+  switch (response.status) {
+    case 200:
+      return document === undefined ? { again: { reason: "the answer is cut off" } } : { answer: readAnswer(document) };
+    case 401:
+    case 403:
+      throw new Failure(exit.keyRefused, title(document, response.status));
+    case 422:
+      throw new Failure(exit.invalidScene, faults(document));
+    case 429:
+    case 503: {
+      const waitMs = retryAfterMs(response.headers.get("retry-after"));
+      return { again: { reason: title(document, response.status), waitMs } };
+    }
+    default:
+      throw new Failure(exit.refused, title(document, response.status));
+  }
+}
+
+/** What `fetch` found; the word of the system where it has one. */
+function reason(error: unknown): string {
+  const cause = error instanceof Error && error.cause instanceof Error ? error.cause : error;
+  return cause instanceof Error ? cause.message : String(cause);
+}
+
+/** The planning service, asked until it answers. */
+export class Service {
+  private readonly address: string;
+  private readonly headers: Readonly<Record<string, string>>;
+
+  /** An empty key is not sent. */
+  constructor(url: string, key: string) {
+    this.address = `${url}/v1/plans`;
+    this.headers = {
+      accept: "application/json",
+      "content-type": "application/json",
+      ...(key === "" ? {} : { authorization: `Bearer ${key}` }),
+    };
+  }
+
+  async plan(scene: Scene): Promise<Answer> {
+    for (let failed = 0; ; failed++) {
+      const outcome = await this.ask(scene);
+      if ("answer" in outcome) {
+        return outcome.answer;
+      }
+      const pauseMs = pausesMs[failed];
+      if (pauseMs === undefined) {
+        throw new Failure(exit.refused, `gave up: ${outcome.again.reason}`);
+      }
+      const waitMs = outcome.again.waitMs ?? pauseMs;
+      console.error(`${outcome.again.reason}; asking again in ${waitMs} ms`);
+      await sleep(waitMs);
+    }
+  }
+
+  private async ask(scene: Scene): Promise<Outcome> {
+    let response: Response;
+    let body: string;
+    try {
+      // The signal covers the body too, which may break off after its head has come.
+      const signal = AbortSignal.timeout(scene.timeLimitMs + transferMs);
+      response = await fetch(this.address, { method: "POST", headers: this.headers, body: scene.body, signal });
+      body = await response.text();
+    } catch (error) {
+      return { again: { reason: reason(error) } };
+    }
+    return judge(response, body);
+  }
+}

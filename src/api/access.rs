@@ -1,0 +1,165 @@
+//! Who may do what. Every operation says beside its route what it needs of a key, and is not reached without, nor is its
+//! body read.
+
+use core::future::pending;
+use core::time::Duration;
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::body::Body;
+use axum::extract::{FromRequestParts, State};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderValue, Request, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+use super::app::App;
+use super::problem::{CHALLENGE, internal};
+use super::{body, edge};
+use crate::jobs::Owner;
+use crate::keys::{Found, Keys, Scope};
+use crate::metrics::Refusal;
+use crate::wire::{Problem, ProblemKind};
+
+/// What an operation needs of a key.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Need {
+    /// Not even that there is one.
+    Nothing,
+    /// That it holds.
+    AnyKey,
+    /// That it is for one of these, the least first.
+    OneOf(&'static [Scope]),
+}
+
+/// Who asks.
+#[derive(Clone)]
+pub(super) struct Caller {
+    /// Whose the caller's jobs are, and whose turn it is to be served.
+    pub(super) owner: Owner,
+    key: Option<Found>,
+}
+
+impl Caller {
+    /// Done once the caller's key no longer holds.
+    pub(super) async fn locked_out(&self) {
+        match &self.key {
+            Some(key) => key.gone().cancelled().await,
+            None => pending().await,
+        }
+    }
+}
+
+impl<S: Sync> FromRequestParts<S> for Caller {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        // Whoever asks for the caller behind no guard must not get anybody.
+        parts.extensions.get().cloned().ok_or_else(internal)
+    }
+}
+
+/// The middleware before an operation that needs a key.
+pub(super) async fn guard(
+    State((app, need)): State<(Arc<App>, Need)>,
+    mut request: Request<Body>,
+    next: Next,
+) -> Response {
+    let caller = match &app.keys {
+        Some(keys) => admit(keys, need, request.headers()),
+        None => Ok(Caller { owner: Owner::anonymous(), key: None }),
+    };
+    match caller {
+        Ok(caller) => {
+            request.extensions_mut().insert(caller);
+            next.run(request).await
+        }
+        Err(refused) => {
+            app.metrics.refused(refused.refusal());
+            body::discard(request, app.settings.body_timeout);
+            refused.into_response()
+        }
+    }
+}
+
+/// Why somebody is not let in.
+enum Refused {
+    NoKey,
+    WrongKey,
+    Scope(&'static [Scope]),
+    Rate(Duration),
+}
+
+fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, Refused> {
+    let key = keys.find(presented(headers)?).ok_or(Refused::WrongKey)?;
+    edge::note_key(key.name());
+    // What a key may not do counts too, or it could be tried for ever.
+    key.spend(Instant::now()).map_err(Refused::Rate)?;
+    match need {
+        Need::OneOf(scopes) if !key.is_for(scopes) => Err(Refused::Scope(scopes)),
+        _ => Ok(Caller { owner: Owner::named(key.name()), key: Some(key) }),
+    }
+}
+
+/// The text that is to be a key.
+fn presented(headers: &HeaderMap) -> Result<&[u8], Refused> {
+    let mut fields = headers.get_all(header::AUTHORIZATION).iter();
+    let Some(field) = fields.next() else { return Err(Refused::NoKey) };
+    if fields.next().is_some() {
+        return Err(Refused::WrongKey);
+    }
+    let mut parts = field.as_bytes().splitn(2, |byte| *byte == b' ');
+    if !parts.next().unwrap_or_default().eq_ignore_ascii_case(b"bearer") {
+        return Err(Refused::NoKey);
+    }
+    Ok(parts.next().unwrap_or_default().trim_ascii())
+}
+
+impl Refused {
+    fn refusal(&self) -> Refusal {
+        match self {
+            Self::NoKey | Self::WrongKey => Refusal::Unauthorized,
+            Self::Scope(_) => Refusal::Forbidden,
+            Self::Rate(_) => Refusal::RateExceeded,
+        }
+    }
+
+    fn problem(&self) -> Problem {
+        match self {
+            Self::NoKey => {
+                Problem::new(ProblemKind::Unauthorized, "send the header Authorization: Bearer and your key")
+            }
+            Self::WrongKey => Problem::new(ProblemKind::Unauthorized, "there is no such key, or no longer"),
+            Self::Scope(scopes) => {
+                let words: Vec<&str> = scopes.iter().map(|scope| scope.as_str()).collect();
+                Problem::new(ProblemKind::Forbidden, format!("this needs a key for {}", words.join(" or ")))
+            }
+            Self::Rate(after) => {
+                let problem = Problem::new(ProblemKind::RateExceeded, "the key was used more often than it may be");
+                problem.with_retry_after(*after)
+            }
+        }
+    }
+
+    /// What is said besides the scheme (RFC 6750, section 3).
+    fn challenge(&self) -> Option<String> {
+        match self {
+            Self::WrongKey => Some(format!("{CHALLENGE}, error=\"invalid_token\"")),
+            Self::Scope(scopes) => {
+                let least = scopes.first().map_or("", |scope| scope.as_str());
+                Some(format!("{CHALLENGE}, error=\"insufficient_scope\", scope=\"{least}\""))
+            }
+            Self::NoKey | Self::Rate(_) => None,
+        }
+    }
+}
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        let mut response = self.problem().into_response();
+        if let Some(challenge) = self.challenge().and_then(|text| HeaderValue::try_from(text).ok()) {
+            response.headers_mut().insert(header::WWW_AUTHENTICATE, challenge);
+        }
+        response
+    }
+}

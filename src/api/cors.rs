@@ -1,0 +1,92 @@
+//! Which pages may call from a browser (CORS). None, unless the operator lists where they come from.
+
+use core::fmt;
+use core::str::FromStr;
+use core::time::Duration;
+
+use axum::http::{HeaderName, HeaderValue, Method, header};
+use tower_http::cors::{AllowOrigin, CorsLayer};
+use url::Url;
+
+/// How long a browser may remember what it was allowed: a change of the list is felt within the hour.
+const MAX_AGE: Duration = Duration::from_secs(3600);
+
+/// Where pages may come from, each as browsers write it: `https://cell.example.com`.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct CorsOrigins(Vec<String>);
+
+impl CorsOrigins {
+    /// What answers browsers, where any page may call. It also answers what they ask beforehand, which has no key.
+    pub(super) fn layer(&self) -> Option<CorsLayer> {
+        let origins: Vec<HeaderValue> = self.0.iter().filter_map(|origin| origin.parse().ok()).collect();
+        let layer = CorsLayer::new()
+            .allow_origin(AllowOrigin::list(origins))
+            .allow_methods([Method::GET, Method::POST, Method::DELETE])
+            .allow_headers(
+                ["authorization", "content-type", "idempotency-key", "last-event-id", "traceparent", "x-request-id"]
+                    .map(HeaderName::from_static),
+            )
+            .expose_headers([header::LOCATION, header::RETRY_AFTER, HeaderName::from_static("x-request-id")])
+            .max_age(MAX_AGE);
+        (!self.0.is_empty()).then_some(layer)
+    }
+}
+
+impl FromStr for CorsOrigins {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" {
+            return Ok(Self::default());
+        }
+        text.split(',').map(|entry| origin(entry.trim())).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+/// One entry, if it is what a browser sends.
+fn origin(text: &str) -> Result<String, String> {
+    if text.contains('*') {
+        return Err("'*' would let in pages that nobody knows; list each origin".to_owned());
+    }
+    let url = Url::parse(text).ok().filter(|url| ["http", "https"].contains(&url.scheme()));
+    // Compared letter by letter, so anything that a browser would write otherwise would never match.
+    match url.map(|url| url.origin().ascii_serialization()) {
+        Some(origin) if origin == text => Ok(origin),
+        Some(origin) => Err(format!("'{text}' is no origin; browsers write {origin}")),
+        None => Err(format!("'{text}' is no origin like https://cell.example.com")),
+    }
+}
+
+impl fmt::Display for CorsOrigins {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.0.is_empty() { "none" } else { "" })?;
+        f.write_str(&self.0.join(","))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn origins_are_listed_as_browsers_write_them() {
+        let list = "https://cell.example.com,http://localhost:3000";
+        assert_eq!(list.parse::<CorsOrigins>().unwrap().to_string(), list);
+        assert_eq!("none".parse::<CorsOrigins>().unwrap(), CorsOrigins::default());
+        assert!("none".parse::<CorsOrigins>().unwrap().layer().is_none());
+        for (wrong, said) in [
+            ("*", "list each origin"),
+            ("https://a.example,*", "list each origin"),
+            ("https://a.example/", "browsers write https://a.example"),
+            ("https://A.example", "browsers write https://a.example"),
+            ("https://a.example:443", "browsers write https://a.example"),
+            ("https://*.example", "list each origin"),
+            ("a.example", "is no origin"),
+            ("null", "is no origin"),
+            ("ftp://a.example", "is no origin"),
+            ("", "is no origin"),
+        ] {
+            assert!(wrong.parse::<CorsOrigins>().unwrap_err().contains(said), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! `singulate key`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::{Failure, output};
+use crate::keys::{FreshKey, Rate, Scopes, append};
+
+/// The arguments of `key`.
+#[derive(Debug, Args)]
+pub(super) struct Key {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Make a key and print it, once; the keys file gets its digest only
+    New(New),
+}
+
+#[derive(Debug, Args)]
+struct New {
+    /// Whose key it is: stands in the log, and owns the jobs. Several keys may have one name
+    name: String,
+    /// What it is for: plan, jobs, read-only, metrics; separated by commas
+    #[arg(long, default_value = "plan,jobs")]
+    scopes: Scopes,
+    /// Requests per second; one second's worth may come at once
+    // What a robot asks that plans anew after every step, many times over.
+    #[arg(long, default_value = "50")]
+    rate: Rate,
+    /// Append the entry to this file, which is made if it is not there; without it the entry is printed below the key
+    #[arg(long, value_name = "FILE")]
+    api_keys_file: Option<PathBuf>,
+}
+
+impl Key {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let Command::New(new) = self.command;
+        let key = FreshKey::new(&new.name, new.scopes, new.rate).map_err(Failure::Refused)?;
+        let Some(path) = new.api_keys_file else {
+            return output::print(&format!("{}\n\n{}", key.text(), key.entry()));
+        };
+        append(&key, &path).map_err(|error| Failure::Refused(error.to_string()))?;
+        output::print(&format!("{}\n", key.text()))
+    }
+}

@@ -1,0 +1,111 @@
+//! What the keys file says of one key.
+
+use sha2::{Digest, Sha256};
+use subtle::ConstantTimeEq;
+
+use super::rate::Rate;
+use super::scope::Scopes;
+
+/// The longest name, bytes: room for a cell or a person, none for a document.
+const MAX_NAME: usize = 64;
+/// Whose jobs those are that were handed in without a key.
+const RESERVED: &str = "anonymous";
+/// What each key of ours begins with, so that whoever finds one knows what it opens.
+pub(super) const PREFIX: &str = "sgl_";
+
+/// The SHA-256 of a key's text. Neither displayed nor compared in a time that depends on it.
+#[derive(Clone, Copy)]
+pub(super) struct KeyDigest([u8; 32]);
+
+impl KeyDigest {
+    /// Of this text.
+    pub(super) fn of(key: &[u8]) -> Self {
+        Self(Sha256::digest(key).into())
+    }
+
+    /// From 64 hexadecimal digits.
+    pub(super) fn read(text: &str) -> Option<Self> {
+        let digit = |byte: u8| char::from(byte).to_digit(16).and_then(|digit| u8::try_from(digit).ok());
+        let digits = text.bytes().map(digit).collect::<Option<Vec<u8>>>()?;
+        let bytes: Vec<u8> =
+            digits.chunks(2).map(|pair| pair.iter().fold(0, |byte, digit| byte << 4 | digit)).collect();
+        bytes.try_into().ok().filter(|_| digits.len() == 64).map(Self)
+    }
+
+    /// Hexadecimal.
+    pub(super) fn text(&self) -> String {
+        self.0.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl ConstantTimeEq for KeyDigest {
+    fn ct_eq(&self, other: &Self) -> subtle::Choice {
+        self.0.ct_eq(&other.0)
+    }
+}
+
+/// One key.
+pub(super) struct KeyEntry {
+    pub(super) name: String,
+    pub(super) digest: KeyDigest,
+    pub(super) scopes: Scopes,
+    pub(super) rate: Rate,
+}
+
+impl KeyEntry {
+    /// True if it is the same key, as ever somebody's for the same.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        bool::from(self.digest.ct_eq(&other.digest)) && (&self.name, &self.scopes) == (&other.name, &other.scopes)
+    }
+
+    /// As the keys file has it.
+    pub(super) fn text(&self) -> String {
+        let Self { name, digest, scopes, rate } = self;
+        let name = toml::Value::from(name.as_str());
+        format!("[[key]]\nname = {name}\nsha256 = \"{}\"\nscopes = {scopes}\nrate = {rate}\n", digest.text())
+    }
+}
+
+/// A name that may stand in logs and owns jobs.
+///
+/// # Errors
+/// What it may be; not what it is, for it may be a key in the wrong place.
+pub(super) fn check_name(name: &str) -> Result<(), String> {
+    if !(1..=MAX_NAME).contains(&name.len()) || !name.bytes().all(|byte| byte.is_ascii_graphic()) {
+        return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
+    }
+    if name == RESERVED {
+        return Err(format!("the name {RESERVED} belongs to those who came without a key"));
+    }
+    if name.starts_with(PREFIX) {
+        return Err("this is a key, not a name".to_owned());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_digest_is_read_as_it_is_written() {
+        let text = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(KeyDigest::of(b"abc").text(), text);
+        for same in [text.to_owned(), text.to_uppercase()] {
+            assert_eq!(KeyDigest::read(&same).unwrap().text(), text);
+        }
+        for wrong in ["", &text[1..], &text[2..], &format!("{text}0"), &format!("{text}00"), &text.replace('b', "g")] {
+            assert!(KeyDigest::read(wrong).is_none(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_short_and_can_be_read_anywhere() {
+        for name in ["a", "cell-4/17", "o'neil\\\"", &"n".repeat(64)] {
+            assert!(check_name(name).is_ok(), "{name}");
+        }
+        for name in ["", "a b", "a\n", "Müller", "anonymous", "sgl_abc", &"n".repeat(65)] {
+            assert!(check_name(name).is_err(), "{name}");
+        }
+    }
+}

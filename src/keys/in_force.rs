@@ -1,0 +1,222 @@
+//! The keys that hold now.
+
+use core::fmt;
+use core::time::Duration;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError, RwLock};
+use std::time::Instant;
+
+use subtle::{ConditionallySelectable, ConstantTimeEq};
+use tokio::sync::Mutex;
+use tokio_util::sync::CancellationToken;
+
+use super::entry::{KeyDigest, KeyEntry};
+use super::rate::Spent;
+use super::read::read;
+use super::scope::Scope;
+use crate::watched_files::WatchedFiles;
+
+/// No key is so long, bytes; what is longer is not even digested.
+const MAX_KEY: usize = 256;
+
+/// All that is wrong with a keys file, one line each.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct KeysError(pub Vec<String>);
+
+impl KeysError {
+    pub(super) fn file(path: &Path, error: &io::Error) -> Self {
+        Self(vec![format!("{}: {error}", path.display())])
+    }
+
+    pub(super) fn faults(path: &Path, faults: &[String]) -> Self {
+        Self(faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect())
+    }
+}
+
+/// The keys of a file, as it stands or last stood in order.
+pub struct Keys {
+    path: PathBuf,
+    in_force: RwLock<Arc<[Arc<Held>]>>,
+    files: Mutex<WatchedFiles>,
+}
+
+/// A key in force, with what it has used.
+struct Held {
+    entry: KeyEntry,
+    spent: Arc<Spent>,
+    /// Cancelled once the key is gone, or is another's or for something else.
+    gone: CancellationToken,
+}
+
+/// A key that somebody came with.
+#[derive(Clone)]
+pub struct Found(Arc<Held>);
+
+impl fmt::Debug for Keys {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Keys({})", self.path.display())
+    }
+}
+
+impl Keys {
+    /// Read a keys file.
+    ///
+    /// # Errors
+    /// If it can't be read, or everything that is wrong in it.
+    pub fn open(path: &Path) -> Result<Self, KeysError> {
+        let files = WatchedFiles::read(vec![path.to_owned()]).map_err(|error| KeysError(vec![error.to_string()]))?;
+        let entries = read(content(&files)).map_err(|faults| KeysError::faults(path, &faults))?;
+        let in_force = RwLock::new(entries.into_iter().map(|entry| Held::after(None, entry)).collect());
+        Ok(Self { path: path.to_owned(), in_force, files: Mutex::new(files) })
+    }
+
+    /// The key with this text. Every key is looked at in the same time, so that time tells nothing of any.
+    pub fn find(&self, text: &[u8]) -> Option<Found> {
+        if text.len() > MAX_KEY {
+            return None;
+        }
+        let presented = KeyDigest::of(text);
+        let in_force = self.in_force();
+        // One past the last stands for none.
+        let mut at = in_force.len() as u64;
+        for (position, held) in (0..).zip(in_force.iter()) {
+            at.conditional_assign(&position, held.entry.digest.ct_eq(&presented));
+        }
+        in_force.get(usize::try_from(at).ok()?).map(|held| Found(Arc::clone(held)))
+    }
+
+    /// Take over what the file says whenever that changes; goes on for ever.
+    pub async fn watch(&self) {
+        let mut files = self.files.lock().await;
+        loop {
+            files.changed().await;
+            if let Err(faults) = self.take_over(content(&files)) {
+                tracing::error!(%faults, "the keys of before still hold");
+            }
+        }
+    }
+
+    fn in_force(&self) -> Arc<[Arc<Held>]> {
+        // A list is replaced as a whole, so no panic leaves half of one.
+        Arc::clone(&self.in_force.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// From now on the keys in the text hold. What was used of a rate stays used.
+    fn take_over(&self, text: &[u8]) -> Result<(), KeysError> {
+        let entries = read(text).map_err(|faults| KeysError::faults(&self.path, &faults))?;
+        let before = self.in_force();
+        let same = |entry: &KeyEntry| before.iter().find(|held| bool::from(held.entry.digest.ct_eq(&entry.digest)));
+        let after: Arc<[Arc<Held>]> = entries.into_iter().map(|entry| Held::after(same(&entry), entry)).collect();
+        tracing::info!(path = %self.path.display(), keys = after.len(), "the keys were replaced");
+        *self.in_force.write().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&after);
+        for held in before.iter().filter(|held| !after.iter().any(|other| held.entry.is_same(&other.entry))) {
+            held.gone.cancel();
+        }
+        Ok(())
+    }
+}
+
+fn content(files: &WatchedFiles) -> &[u8] {
+    files.contents().first().map_or(&[], Vec::as_slice)
+}
+
+impl Held {
+    /// The entry in force, after the one that the same key had before.
+    fn after(before: Option<&Arc<Self>>, entry: KeyEntry) -> Arc<Self> {
+        let spent = before.map(|held| Arc::clone(&held.spent)).unwrap_or_default();
+        let as_before = before.filter(|held| held.entry.is_same(&entry));
+        let gone = as_before.map(|held| held.gone.clone()).unwrap_or_default();
+        Arc::new(Self { entry, spent, gone })
+    }
+}
+
+impl Found {
+    /// Whose it is.
+    pub fn name(&self) -> &str {
+        &self.0.entry.name
+    }
+
+    /// True if it is for one of these.
+    pub fn is_for(&self, scopes: &[Scope]) -> bool {
+        self.0.entry.scopes.any_of(scopes)
+    }
+
+    /// Use it once.
+    ///
+    /// # Errors
+    /// If it was used too often: when to come again.
+    pub fn spend(&self, now: Instant) -> Result<(), Duration> {
+        self.0.spent.take(self.0.entry.rate, now)
+    }
+
+    /// Cancelled once the key no longer holds as it did.
+    pub fn gone(&self) -> &CancellationToken {
+        &self.0.gone
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::{FreshKey, append};
+
+    fn fresh(name: &str, scopes: &str, rate: &str) -> FreshKey {
+        FreshKey::new(name, scopes.parse().unwrap(), rate.parse().unwrap()).unwrap()
+    }
+
+    /// A file of its own for each test.
+    fn keys(name: &str, made: &[&FreshKey]) -> Keys {
+        let path = std::env::temp_dir().join(format!("singulate-keys-{}-{name}", std::process::id()));
+        made.iter().for_each(|key| append(key, &path).unwrap());
+        let keys = Keys::open(&path).unwrap();
+        std::fs::remove_file(path).unwrap();
+        keys
+    }
+
+    #[test]
+    fn a_key_is_found_by_its_text_and_nothing_else_is() {
+        let made = ["a", "b", "c"].map(|name| fresh(name, "plan", "1"));
+        let keys = keys("found", &made.each_ref());
+        for (key, name) in made.iter().zip(["a", "b", "c"]) {
+            let found = keys.find(key.text().as_bytes()).unwrap();
+            assert!(found.name() == name && found.is_for(&[Scope::Plan]) && !found.is_for(&[Scope::Jobs]));
+            assert!(keys.find(&key.text().as_bytes()[1..]).is_none());
+        }
+        assert!(keys.find(b"").is_none() && keys.find("k".repeat(257).as_bytes()).is_none());
+        assert_eq!(made[0].text().len(), "sgl_".len() + 43);
+    }
+
+    #[test]
+    fn a_new_list_replaces_the_old_one_and_what_was_used_stays_used() {
+        let [stays, faster, goes, changes] = ["1", "1", "1", "1"].map(|rate| fresh("a", "plan", rate));
+        let keys = keys("replaced", &[&stays, &faster, &goes, &changes]);
+        let find = |key: &FreshKey| keys.find(key.text().as_bytes());
+        let now = Instant::now();
+        let before = [&stays, &faster, &goes, &changes].map(|key| find(key).unwrap());
+        assert!(before.iter().all(|found| found.spend(now).is_ok()));
+        let new = fresh("n", "jobs", "1");
+        let [kept, quick] = [stays.entry(), faster.entry().replace("rate = 1", "rate = 10")];
+        let other = changes.entry().replace("plan", "jobs");
+        keys.take_over([kept, quick, other, new.entry()].concat().as_bytes()).unwrap();
+        assert!(find(&new).unwrap().spend(now).is_ok() && find(&goes).is_none());
+        assert_eq!(find(&stays).unwrap().spend(now), Err(Duration::from_secs(1)));
+        assert_eq!(find(&faster).unwrap().spend(now + Duration::from_millis(100)), Ok(()));
+        assert_eq!(before.map(|found| found.gone().is_cancelled()), [false, false, true, true]);
+        assert!(!find(&changes).unwrap().gone().is_cancelled());
+    }
+
+    #[test]
+    fn a_faulty_list_is_refused_as_a_whole() {
+        let [first, second] = ["a", "b"].map(|name| fresh(name, "plan", "1"));
+        let keys = keys("faulty", &[&first]);
+        let before = keys.find(first.text().as_bytes()).unwrap();
+        for faulty in [format!("{}[[key]]\n", second.entry()), String::new(), "[[key]".to_owned()] {
+            let error = keys.take_over(faulty.as_bytes()).unwrap_err();
+            assert!(error.0.iter().all(|fault| fault.contains("-faulty: ")), "{error}");
+        }
+        assert!(keys.find(second.text().as_bytes()).is_none() && keys.find(first.text().as_bytes()).is_some());
+        assert!(!before.gone().is_cancelled());
+    }
+}

@@ -1,0 +1,121 @@
+//! How often a key may be used. A bucket of a few lines: a crate for it would bring a dozen others for one comparison.
+
+use core::fmt;
+use core::str::FromStr;
+use core::time::Duration;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// Once in some 17 minutes, and more than any machine answers: what lies outside is a typing error.
+const RANGE: core::ops::RangeInclusive<f64> = 0.001..=1e6;
+
+/// Requests per second. One second's worth, and one at least, may come at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rate(f64);
+
+impl Rate {
+    /// This many a second.
+    ///
+    /// # Errors
+    /// What it may be.
+    pub fn new(per_second: f64) -> Result<Self, String> {
+        if RANGE.contains(&per_second) {
+            return Ok(Self(per_second));
+        }
+        Err(format!("a rate is a number of requests per second from {} to {}", RANGE.start(), RANGE.end()))
+    }
+
+    /// The time from one request to the next.
+    fn pause(self) -> Duration {
+        Duration::from_secs_f64(1.0 / self.0)
+    }
+
+    /// How long a full bucket takes to fill.
+    fn whole(self) -> Duration {
+        Duration::from_secs_f64(self.0.max(1.0) / self.0)
+    }
+}
+
+impl FromStr for Rate {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        // No number is no rate either.
+        Self::new(text.parse().unwrap_or(f64::NAN))
+    }
+}
+
+impl fmt::Display for Rate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// What has been used of a rate: the moment at which the bucket is full again. A rate may change meanwhile.
+#[derive(Debug, Default)]
+pub(super) struct Spent(Mutex<Option<Instant>>);
+
+impl Spent {
+    /// Use it once.
+    ///
+    /// # Errors
+    /// If it is used up: when to come again.
+    pub(super) fn take(&self, rate: Rate, now: Instant) -> Result<(), Duration> {
+        // No invariant of a moment can be broken by a panic.
+        let mut full = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // By the rate of before the bucket may have taken longer to fill.
+        let owed = full.map_or(Duration::ZERO, |full| full.saturating_duration_since(now)).min(rate.whole());
+        let room = rate.whole().saturating_sub(rate.pause());
+        let taken = if owed > room { Err(owed - room) } else { Ok(rate.pause()) };
+        *full = Some(now + owed + taken.unwrap_or_default());
+        taken.map(drop)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rate(per_second: f64) -> Rate {
+        Rate::new(per_second).unwrap()
+    }
+
+    #[test]
+    fn one_seconds_worth_may_come_at_once_and_the_rest_in_step() {
+        let (spent, now) = (Spent::default(), Instant::now());
+        for _ in 0..4 {
+            assert_eq!(spent.take(rate(4.0), now), Ok(()));
+        }
+        let pause = Duration::from_millis(250);
+        assert_eq!(spent.take(rate(4.0), now), Err(pause));
+        assert_eq!(spent.take(rate(4.0), now + pause / 2), Err(pause / 2));
+        assert_eq!(spent.take(rate(4.0), now + pause), Ok(()));
+        assert_eq!(spent.take(rate(4.0), now + pause), Err(pause));
+        let later = now + 100 * pause;
+        assert_eq!([(); 5].map(|()| spent.take(rate(4.0), later).is_ok()), [true, true, true, true, false]);
+    }
+
+    #[test]
+    fn a_slow_rate_lets_one_through() {
+        let (spent, now) = (Spent::default(), Instant::now());
+        assert_eq!(spent.take(rate(0.1), now), Ok(()));
+        assert_eq!(spent.take(rate(0.1), now), Err(Duration::from_secs(10)));
+        assert_eq!(spent.take(rate(0.1), now + Duration::from_secs(10)), Ok(()));
+    }
+
+    #[test]
+    fn a_new_rate_does_not_wait_for_the_old_one() {
+        let (spent, now) = (Spent::default(), Instant::now());
+        assert_eq!(spent.take(rate(0.001), now), Ok(()));
+        assert_eq!(spent.take(rate(2.0), now), Err(Duration::from_millis(500)));
+        assert_eq!(spent.take(rate(2.0), now + Duration::from_millis(500)), Ok(()));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_no_rate() {
+        for text in ["", "0", "-1", "nan", "inf", "1e7", "fast"] {
+            assert!(text.parse::<Rate>().is_err(), "{text}");
+        }
+        assert_eq!("50".parse::<Rate>().unwrap().to_string(), "50");
+    }
+}
