@@ -5,6 +5,8 @@ use core::time::Duration;
 use std::sync::{Arc, OnceLock};
 
 use axum::Router;
+use hyper::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1;
 use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -17,6 +19,9 @@ use tokio::time::{Instant, sleep, timeout_at};
 use super::app::App;
 use super::patience::PatientStream;
 use super::router::router;
+use super::socket::Socket;
+use super::transport::{self, OverTls, Transport};
+use crate::tls::Acceptor;
 
 /// How long to wait after the system refused a connection, mostly for want of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
@@ -29,6 +34,8 @@ const IDLE_TIMEOUT: Duration = Duration::from_secs(75);
 pub(super) struct Connections {
     listener: TcpListener,
     app: Arc<App>,
+    /// Where TLS is spoken.
+    tls: Option<Acceptor>,
     service: Router,
     slots: Arc<Semaphore>,
     open: JoinSet<()>,
@@ -38,10 +45,10 @@ pub(super) struct Connections {
 }
 
 impl Connections {
-    pub(super) fn new(listener: TcpListener, app: Arc<App>) -> Self {
+    pub(super) fn new(listener: TcpListener, app: Arc<App>, tls: Option<Acceptor>) -> Self {
         let slots = Arc::new(Semaphore::new(app.settings.connections.max(1)));
         let service = router(Arc::clone(&app));
-        Self { listener, app, service, slots, open: JoinSet::new(), asking: watch::Sender::default() }
+        Self { listener, app, tls, service, slots, open: JoinSet::new(), asking: watch::Sender::default() }
     }
 
     /// Accept and serve until `end` is done.
@@ -53,9 +60,29 @@ impl Connections {
                 () = &mut end => return,
                 accepted = accept(&self.listener, &self.slots) => accepted,
             };
-            let asking = self.asking.clone();
-            self.open.spawn(serve(stream, slot, self.service.clone(), Arc::clone(&self.app), asking));
+            self.open.spawn(self.connection(stream, slot));
             while self.open.try_join_next().is_some() {}
+        }
+    }
+
+    /// A connection from its beginning to its end.
+    fn connection(&self, stream: TcpStream, slot: OwnedSemaphorePermit) -> impl Future<Output = ()> + use<> {
+        let (app, service, asking) = (Arc::clone(&self.app), self.service.clone(), self.asking.clone());
+        let tls = self.tls.clone();
+        async move {
+            // Answers are small and waited for. A connection that keeps its delay serves all the same.
+            let _ = stream.set_nodelay(true);
+            let open = app.metrics.connection();
+            let socket = Socket::new(stream, app.settings.write_timeout);
+            let begun = match tls {
+                Some(acceptor) => transport::secure(socket, &acceptor, app.settings.header_timeout).await,
+                None => Ok((Box::new(socket) as Transport, None)),
+            };
+            match begun {
+                Ok((stream, mark)) => serve(stream, mark, service, &app, asking).await,
+                Err(error) => tracing::debug!(%error, "no TLS was agreed on"),
+            }
+            drop((slot, open));
         }
     }
 
@@ -86,20 +113,15 @@ async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, O
     }
 }
 
-async fn serve(
-    stream: TcpStream,
-    slot: OwnedSemaphorePermit,
-    service: Router,
-    app: Arc<App>,
-    asking: watch::Sender<usize>,
-) {
-    // Answers are small and waited for. A connection that keeps its delay serves all the same.
-    let _ = stream.set_nodelay(true);
-    let open = app.metrics.connection();
-    let (stream, quiet) = PatientStream::new(stream, &app.settings);
+/// Answer what is asked over `stream`; each request gets the mark.
+async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &App, asking: watch::Sender<usize>) {
+    let (stream, quiet) = PatientStream::new(stream, app.settings.header_timeout);
     let service = TowerToHyperService::new(service);
     let asked = OnceLock::new();
-    let service = service_fn(move |request| {
+    let service = service_fn(move |mut request: Request<Incoming>| {
+        if let Some(mark) = mark {
+            request.extensions_mut().insert(mark);
+        }
         asked.get_or_init(|| Asking::new(asking.clone()));
         quiet.set(false);
         let (answer, quiet) = (service.call(request), quiet.clone());
@@ -122,7 +144,6 @@ async fn serve(
         }
     };
     note(ended);
-    drop((slot, open));
 }
 
 fn note(ended: hyper::Result<()>) {

@@ -4,6 +4,7 @@ mod accept;
 mod access;
 mod app;
 mod body;
+mod certificate;
 mod connections;
 mod cors;
 mod docs;
@@ -22,7 +23,9 @@ mod refusal;
 mod router;
 pub mod server;
 mod settings;
+mod socket;
 mod survey;
+mod transport;
 mod verification;
 
 pub use app::App;

@@ -1,8 +1,8 @@
 //! The stream of a connection, with what hyper lacks.
 //!
 //! A request's head gets a short time and the pause between two requests a long one. Hyper has one time for both: short
-//! enough for slow heads, it would close a robot's idle connection just as it calls again. A client that takes none of its
-//! answer is not waited for either. And where hyper refuses a head on its own, without a body, a problem goes out instead.
+//! enough for slow heads, it would close a robot's idle connection just as it calls again. And where hyper refuses a head on
+//! its own, without a body, a problem goes out instead.
 
 use core::pin::Pin;
 use core::task::{Context, Poll, ready};
@@ -12,11 +12,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
-use tokio::net::TcpStream;
 use tokio::time::{Sleep, sleep};
 
 use super::refusal;
-use super::settings::ServerSettings;
+use super::transport::Transport;
 
 /// True while no request is being answered. Shared by the stream and the service on top of it.
 #[derive(Clone, Default)]
@@ -35,62 +34,38 @@ impl Quiet {
 
 /// The stream of one connection.
 pub(super) struct PatientStream {
-    stream: TcpStream,
+    stream: Transport,
     quiet: Quiet,
     head_patience: Duration,
-    write_patience: Duration,
     /// Runs while a head has begun and is not complete.
     head: Option<Pin<Box<Sleep>>>,
-    /// Runs while the client takes nothing.
-    stuck: Option<Pin<Box<Sleep>>>,
     /// The rest of a problem that stands for a refusal of hyper's.
     owed: Vec<u8>,
 }
 
 impl PatientStream {
-    /// The first head is due within `header_timeout` from now, each later one from its first byte.
-    pub(super) fn new(stream: TcpStream, settings: &ServerSettings) -> (Self, Quiet) {
+    /// The first head is due within this time from now, each later one from its first byte.
+    pub(super) fn new(stream: Transport, head_patience: Duration) -> (Self, Quiet) {
         let quiet = Quiet::default();
         quiet.set(true);
-        let (head_patience, write_patience) = (settings.header_timeout, settings.write_timeout);
         let head = Some(Box::pin(sleep(head_patience)));
-        let own = quiet.clone();
-        (Self { stream, quiet: own, head_patience, write_patience, head, stuck: None, owed: Vec::new() }, quiet)
+        (Self { stream, quiet: quiet.clone(), head_patience, head, owed: Vec::new() }, quiet)
     }
 
     /// An error once the head that has begun is overdue.
     fn check_head(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
-        poll_timer(&mut self.head, context)
-    }
-
-    /// The outcome of a write, or an error where the client has taken nothing for too long.
-    fn check_write<T>(&mut self, written: Poll<io::Result<T>>, context: &mut Context<'_>) -> Poll<io::Result<T>> {
-        if written.is_ready() {
-            self.stuck = None;
-            return written;
-        }
-        self.stuck.get_or_insert_with(|| Box::pin(sleep(self.write_patience)));
-        match poll_timer(&mut self.stuck, context) {
-            Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
-            _ => Poll::Pending,
+        match &mut self.head {
+            Some(timer) => timer.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
+            None => Poll::Pending,
         }
     }
 
     fn poll_owed(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
         while !self.owed.is_empty() {
-            let written = Pin::new(&mut self.stream).poll_write(context, &self.owed);
-            let count = ready!(self.check_write(written, context))?;
+            let count = ready!(Pin::new(&mut self.stream).poll_write(context, &self.owed))?;
             self.owed.drain(..count);
         }
         Poll::Ready(Ok(()))
-    }
-}
-
-/// An error once the timer has run out.
-fn poll_timer(timer: &mut Option<Pin<Box<Sleep>>>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
-    match timer {
-        Some(timer) => timer.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
-        None => Poll::Pending,
     }
 }
 
@@ -121,8 +96,7 @@ impl AsyncWrite for PatientStream {
             self.owed = problem;
             return Poll::Ready(Ok(bytes.len()));
         }
-        let written = Pin::new(&mut self.stream).poll_write(context, bytes);
-        self.check_write(written, context)
+        Pin::new(&mut self.stream).poll_write(context, bytes)
     }
 
     fn poll_write_vectored(
@@ -135,8 +109,7 @@ impl AsyncWrite for PatientStream {
             return self.poll_write(context, bytes);
         }
         ready!(self.poll_owed(context))?;
-        let written = Pin::new(&mut self.stream).poll_write_vectored(context, slices);
-        self.check_write(written, context)
+        Pin::new(&mut self.stream).poll_write_vectored(context, slices)
     }
 
     fn is_write_vectored(&self) -> bool {

@@ -11,7 +11,9 @@ use utoipa_axum::routes;
 
 use super::access::{Need, guard};
 use super::app::App;
-use super::{docs, document, edge, headers, jobs, knowledge, metrics, plans, probes, problem, survey, verification};
+use super::{
+    certificate, docs, document, edge, headers, jobs, knowledge, metrics, plans, probes, problem, survey, verification,
+};
 use crate::keys::Scope;
 
 const PLAN: Need = Need::OneOf(&[Scope::Plan]);
@@ -57,7 +59,9 @@ pub fn router(app: Arc<App>) -> Router {
         .route("/docs/{*file}", get(docs::file))
         .fallback(problem::not_found)
         .method_not_allowed_fallback(problem::method_not_allowed)
-        .layer(CatchPanicLayer::custom(problem::panicked));
+        .layer(CatchPanicLayer::custom(problem::panicked))
+        .layer(from_fn_with_state(Arc::clone(&app), certificate::each_request));
+    // What a browser asks ahead of a call comes without key and certificate.
     let router = match app.settings.cors_origins.layer() {
         Some(cors) => router.layer(cors),
         None => router,

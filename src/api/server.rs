@@ -15,6 +15,7 @@ use super::app::App;
 use super::connections::Connections;
 use super::settings::ServerSettings;
 use crate::jobs::{self, CallbackDelivery};
+use crate::tls::Certificates;
 use crate::workers::Engine;
 
 /// The share of the time for draining after which what still runs is to deliver the best so far. The rest is for those
@@ -27,7 +28,7 @@ const LAST_LOOK: Duration = Duration::from_secs(1);
 /// Serve on `listener` until `shutdown` is done; then drain and return.
 ///
 /// # Errors
-/// If the system gives no threads.
+/// If the system gives no threads, or the files with certificates don't fit together.
 pub async fn run(
     listener: TcpListener,
     settings: ServerSettings,
@@ -39,7 +40,7 @@ pub async fn run(
 /// [`run`] with other computations than the planner's.
 ///
 /// # Errors
-/// If the system gives no threads.
+/// If the system gives no threads, or the files with certificates don't fit together.
 pub async fn run_with(
     listener: TcpListener,
     settings: ServerSettings,
@@ -47,6 +48,7 @@ pub async fn run_with(
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let mut shutdown = pin!(shutdown);
+    let certificates = Certificates::read(&settings.tls).map_err(io::Error::other)?;
     let app = tokio::select! {
         app = App::start(settings, engine) => Arc::new(app?),
         // A store that can't be reached is not waited for.
@@ -55,7 +57,9 @@ pub async fn run_with(
     let watched = Arc::clone(&app);
     let _watching = AbortOnDropHandle::new(tokio::spawn(async move { watched.watch_keys().await }));
     let background = Background::begin(&app)?;
-    let mut connections = Connections::new(listener, Arc::clone(&app));
+    let acceptor = certificates.as_ref().map(Certificates::acceptor);
+    let _current = certificates.map(|own| AbortOnDropHandle::new(tokio::spawn(own.keep_current())));
+    let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
     connections.serve_until(shutdown).await;
     drain(&app, connections, &background).await;
     Ok(())

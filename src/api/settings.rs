@@ -6,6 +6,7 @@ use std::thread::available_parallelism;
 
 use super::cors::CorsOrigins;
 use crate::jobs::JobSettings;
+use crate::tls::TlsSettings;
 use crate::wire::RequestLimits;
 
 /// The service's settings.
@@ -19,6 +20,8 @@ pub struct ServerSettings {
     pub api_keys_file: Option<PathBuf>,
     /// Which pages may call from a browser.
     pub cors_origins: CorsOrigins,
+    /// The files with certificates.
+    pub tls: TlsSettings,
     /// Planning threads.
     pub threads: usize,
     /// Requests that may wait for a planning thread; more are refused.
@@ -48,14 +51,15 @@ impl Default for ServerSettings {
             jobs: JobSettings::default(),
             api_keys_file: None,
             cors_origins: CorsOrigins::default(),
+            tls: TlsSettings::default(),
             threads: available_parallelism().map_or(1, usize::from),
             // What a cell of robots asks at once. A longer queue helps nobody: who would wait past its deadline is refused
             // whatever the room.
             queue: 64,
             // 10,000 objects, the most of a scene, with ids of 100 characters each.
             max_body_bytes: 4_000_000,
-            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 12 kB and a file
-            // descriptor.
+            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 12 kB, or 20 kB
+            // with TLS, and a file descriptor.
             connections: 12_000,
             // Whoever waits is a connection and some kB.
             max_waiting: 1000,

@@ -6,8 +6,9 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use clap::Args;
 
 use super::Failure;
-use crate::config::{self, Stated};
-use crate::jobs::{client_builder, innermost, trusted_roots};
+use crate::config::{self, Config, Stated};
+use crate::jobs::{client_builder, client_builder_with, innermost, trusted_roots};
+use crate::tls::unverified_client;
 
 /// How long the service may take to say that it is ready.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -22,13 +23,17 @@ pub(super) struct Healthcheck {
 
 impl Healthcheck {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let url = match self.url {
-            Some(url) => url,
-            None => own_url(config::load(&Stated::default(), std::env::vars_os())?.listen),
+        let (url, client) = match self.url {
+            Some(url) => (url, client_builder(trusted_roots())),
+            // Nobody but this machine is asked, so it does not matter what the certificate says.
+            None => (
+                own_url(&config::load(&Stated::default(), std::env::vars_os())?),
+                client_builder_with(unverified_client()),
+            ),
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
-        match runtime.block_on(ask(&url)) {
+        match runtime.block_on(ask(client, &url)) {
             Ok(status) if status.is_success() => Ok(()),
             Ok(status) => Err(Failure::Broken(format!("{url}: {status}"))),
             Err(error) if error.is_builder() => Err(Failure::Refused(format!("{url}: not a URL"))),
@@ -37,18 +42,19 @@ impl Healthcheck {
     }
 }
 
-/// Where a service that listens at `listen` can be asked from this machine.
-fn own_url(listen: SocketAddr) -> String {
-    let ip = match listen.ip() {
+/// Where a service with these settings can be asked from this machine.
+fn own_url(config: &Config) -> String {
+    let scheme = if config.server.tls.cert.is_some() { "https" } else { "http" };
+    let ip = match config.listen.ip() {
         ip if !ip.is_unspecified() => ip,
         IpAddr::V4(_) => IpAddr::V4(Ipv4Addr::LOCALHOST),
         IpAddr::V6(_) => IpAddr::V6(Ipv6Addr::LOCALHOST),
     };
-    format!("http://{}/readyz", SocketAddr::new(ip, listen.port()))
+    format!("{scheme}://{}/readyz", SocketAddr::new(ip, config.listen.port()))
 }
 
-async fn ask(url: &str) -> Result<reqwest::StatusCode, reqwest::Error> {
-    let client = client_builder(trusted_roots()).timeout(PATIENCE).build()?;
+async fn ask(client: reqwest::ClientBuilder, url: &str) -> Result<reqwest::StatusCode, reqwest::Error> {
+    let client = client.timeout(PATIENCE).build()?;
     Ok(client.get(url).send().await?.status())
 }
 
@@ -58,7 +64,7 @@ mod tests {
 
     #[test]
     fn a_service_on_every_address_is_asked_on_this_machine() {
-        let url = |listen: &str| own_url(listen.parse().unwrap());
+        let url = |listen: &str| own_url(&Config { listen: listen.parse().unwrap(), ..Config::default() });
         assert_eq!(url("0.0.0.0:8080"), "http://127.0.0.1:8080/readyz");
         assert_eq!(url("[::]:81"), "http://[::1]:81/readyz");
         assert_eq!(url("192.168.1.2:8080"), "http://192.168.1.2:8080/readyz");

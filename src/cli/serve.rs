@@ -1,13 +1,14 @@
 //! `singulate serve`.
 
 use std::net::SocketAddr;
+use std::path::Path;
 
 use clap::Args;
 use tokio::net::TcpListener;
 
 use super::flags::Flags;
 use super::{Failure, open_files, output};
-use crate::api;
+use crate::api::{self, ServerSettings};
 use crate::config::{self, Config};
 use crate::telemetry;
 
@@ -49,7 +50,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
         tracing::warn!(%listen, "{warning}");
     }
     tracing::info!(%listen, threads = config.server.threads, "serving");
-    output::print(&greeting(listen, config.server.api_keys_file.is_some()))?;
+    output::print(&greeting(listen, &config.server))?;
     api::run(listener, config.server, shutdown).await.map_err(broken)
 }
 
@@ -78,21 +79,33 @@ fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
 /// What a shell adds to the number of the signal that ended a process.
 const KILLED: i32 = 128;
 
-fn greeting(listen: SocketAddr, keys: bool) -> String {
+fn greeting(listen: SocketAddr, settings: &ServerSettings) -> String {
+    let tls = &settings.tls;
     let host = if listen.ip().is_unspecified() { "localhost".to_owned() } else { listen.ip().to_string() };
     let host = if listen.is_ipv6() && host.contains(':') { format!("[{host}]") } else { host };
-    let url = format!("http://{host}:{}", listen.port());
+    let (scheme, trust) = match &tls.cert {
+        Some(cert) => ("https", format!(" --cacert {}", quoted(cert))),
+        None => ("http", String::new()),
+    };
+    let own = if tls.client_ca.is_some() { " --cert YOUR-CERTIFICATE --key YOUR-KEY" } else { "" };
+    let url = format!("{scheme}://{host}:{}", listen.port());
     let scene = SCENE.trim();
-    let key = if keys { " -H \"authorization: Bearer $KEY\"" } else { "" };
+    let key = if settings.api_keys_file.is_some() { " -H \"authorization: Bearer $KEY\"" } else { "" };
     format!(
         "singulate listens on {url} (interface: {url}/docs). Try:\n\n\
-         curl -s {url}/v1/plans{key} -H 'content-type: application/json' -d '{scene}'\n\n"
+         curl -s{trust}{own} {url}/v1/plans{key} -H 'content-type: application/json' -d '{scene}'\n\n"
     )
+}
+
+/// One word of a shell.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tls::TlsSettings;
     use crate::wire::{RequestLimits, read_scene};
 
     #[test]
@@ -104,12 +117,24 @@ mod tests {
 
     #[test]
     fn the_greeting_names_an_address_that_curl_can_reach() {
-        let line = |listen: &str| greeting(listen.parse().unwrap(), false);
+        let line = |listen: &str| greeting(listen.parse().unwrap(), &ServerSettings::default());
         assert!(line("0.0.0.0:80").contains("curl -s http://localhost:80/v1/plans"));
         assert!(line("[::1]:80").contains("curl -s http://[::1]:80/v1/plans"));
         let with_key = "/v1/plans -H \"authorization: Bearer $KEY\" -H";
-        assert!(
-            greeting("127.0.0.1:80".parse().unwrap(), true).contains(with_key) && !line("[::1]:80").contains("$KEY")
-        );
+        let keys = ServerSettings { api_keys_file: Some("keys.toml".into()), ..ServerSettings::default() };
+        assert!(greeting("127.0.0.1:80".parse().unwrap(), &keys).contains(with_key));
+        assert!(!line("[::1]:80").contains("$KEY"));
+    }
+
+    #[test]
+    fn the_greeting_of_tls_names_the_certificate_in_words_that_a_shell_takes() {
+        let mut tls = TlsSettings { cert: Some("it's here.pem".into()), ..TlsSettings::default() };
+        let line = |tls: &TlsSettings| {
+            let settings = ServerSettings { tls: tls.clone(), ..ServerSettings::default() };
+            greeting("127.0.0.1:80".parse().unwrap(), &settings)
+        };
+        assert!(line(&tls).contains(r"curl -s --cacert 'it'\''s here.pem' https://127.0.0.1:80/v1/plans"));
+        tls.client_ca = Some("clients.pem".into());
+        assert!(line(&tls).contains(" --cert YOUR-CERTIFICATE --key YOUR-KEY https://127.0.0.1:80/v1/plans"));
     }
 }

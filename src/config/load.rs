@@ -10,6 +10,8 @@ use super::settings::SETTINGS;
 
 /// What every variable of ours begins with.
 const PREFIX: &str = "SINGULATE_";
+/// What clients of the service read, who may run in the same shell.
+const OF_CLIENTS: [&str; 2] = ["SINGULATE_URL", "SINGULATE_KEY"];
 /// The variable that names the file.
 const CONFIG_VARIABLE: &str = "SINGULATE_CONFIG";
 
@@ -95,7 +97,7 @@ fn variables(
                 Ok(text) => found.push((at, text)),
                 Err(_) => faults.push(format!("{name}: the value is not UTF-8")),
             }
-        } else {
+        } else if !OF_CLIENTS.contains(&name) {
             unknown.push(format!("{name}: there is no such setting"));
         }
     }
@@ -165,7 +167,8 @@ mod tests {
     fn a_flag_goes_before_a_variable_and_a_variable_before_the_file() {
         let path = file("order", "threads = 2\nqueue = 3\nlog = 'warn'\noverlap_tolerance = 0.002\n");
         let stated = Stated { config: Some(path.clone()), flags: vec![flag("threads", "7")] };
-        let variables = variables(&[("SINGULATE_THREADS", "5"), ("SINGULATE_QUEUE", "6"), ("PATH", "/bin")]);
+        let others = [("PATH", "/bin"), ("SINGULATE_KEY", "sgl_"), ("SINGULATE_URL", "http://localhost")];
+        let variables = variables(&[&[("SINGULATE_THREADS", "5"), ("SINGULATE_QUEUE", "6")], &others[..]].concat());
         let config = load(&stated, variables).unwrap();
         std::fs::remove_file(path).unwrap();
         assert_eq!((config.server.threads, config.server.queue, config.log.as_str()), (7, 6, "warn"));

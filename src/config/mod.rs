@@ -14,6 +14,7 @@ pub use setting::{Scope, Setting};
 pub use settings::SETTINGS;
 
 use crate::telemetry::{Endpoint, LogFormat};
+use crate::tls::Certificates;
 
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +53,7 @@ impl Config {
             None if self.insecure || self.listen.ip().is_loopback() => {}
             None => faults.push(self.without_keys()),
         }
+        faults.extend(Certificates::read(&self.server.tls).err().map(|error| error.to_string()));
         if faults.is_empty() { Ok(()) } else { Err(ConfigError(faults)) }
     }
 

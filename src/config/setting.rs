@@ -1,11 +1,15 @@
 //! What a setting is, whatever it is set by.
 
 use core::time::Duration;
+use std::path::PathBuf;
 
 use super::Config;
 
 /// A day. A longer time is a typing error.
 const MAX_MS: u64 = 86_400_000;
+
+/// What stands for no file.
+const NO_FILE: &str = "none";
 
 /// Who needs a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +46,8 @@ pub(super) enum Value {
     Switch { field: fn(&mut Config) -> &mut bool },
     /// A time, up to a day.
     Milliseconds { least: u64, field: fn(&mut Config) -> &mut Duration },
+    /// A file, or none.
+    File { field: fn(&mut Config) -> &mut Option<PathBuf> },
     /// Something of its own: how it is read, and how it is shown.
     Other { set: fn(&mut Config, &str) -> Result<(), String>, get: fn(&Config) -> String },
 }
@@ -80,6 +86,8 @@ impl Setting {
                 *field(config) = text.parse().map_err(|_| format!("'{text}' is neither true nor false"))?;
             }
             Value::Milliseconds { least, field } => *field(config) = Duration::from_millis(whole(text, least, MAX_MS)?),
+            Value::File { .. } if text.is_empty() => return Err(format!("'' is no file; '{NO_FILE}' stands for none")),
+            Value::File { field } => *field(config) = (text != NO_FILE).then(|| PathBuf::from(text)),
             Value::Other { set, .. } => set(config, text)?,
         }
         Ok(())
@@ -93,6 +101,9 @@ impl Setting {
             Value::Number { field, .. } => field(&mut config).to_string(),
             Value::Switch { field } => field(&mut config).to_string(),
             Value::Milliseconds { field, .. } => field(&mut config).as_millis().to_string(),
+            Value::File { field } => {
+                field(&mut config).as_ref().map_or(NO_FILE.to_owned(), |path| path.display().to_string())
+            }
             Value::Other { get, .. } => get(&config),
         }
     }
@@ -123,9 +134,9 @@ mod tests {
         for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = setting.set(&mut Config::default(), text);
-                // A host may be called so, and a file nearly anything.
+                // A host may be called so, and a file may be called anything.
                 let host = setting.name == "callback_allow" && text == "1e99";
-                let file = setting.placeholder == "FILE" && !text.is_empty();
+                let file = matches!(setting.value, Value::File { .. }) && !text.is_empty();
                 assert!(outcome.is_err() || setting.name == "log" || host || file, "{} takes '{text}'", setting.name);
             }
         }

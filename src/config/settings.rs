@@ -1,7 +1,5 @@
 //! Every setting, each once.
 
-use std::path::{Path, PathBuf};
-
 use super::setting::{Scope, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
@@ -10,19 +8,6 @@ use crate::telemetry::LogFormat;
 const MAX_COUNT: u64 = 1_000_000;
 /// 1 GB.
 const MAX_BYTES: u64 = 1_000_000_000;
-
-/// A file, or none.
-fn file(text: &str) -> Result<Option<PathBuf>, String> {
-    match text {
-        "" => Err("a file has a name".to_owned()),
-        "none" => Ok(None),
-        _ => Ok(Some(PathBuf::from(text))),
-    }
-}
-
-fn shown(file: Option<&Path>) -> String {
-    file.map_or("none".to_owned(), |path| path.display().to_string())
-}
 
 /// Every setting.
 pub static SETTINGS: &[Setting] = &[
@@ -45,13 +30,7 @@ pub static SETTINGS: &[Setting] = &[
         scope: Scope::Service,
         placeholder: "FILE",
         help: "The keys of those who may call, see `singulate key new`; read again when it changes",
-        value: Value::Other {
-            set: |config, text| {
-                config.server.api_keys_file = file(text)?;
-                Ok(())
-            },
-            get: |config| shown(config.server.api_keys_file.as_deref()),
-        },
+        value: Value::File { field: |config| &mut config.server.api_keys_file },
     },
     Setting {
         name: "insecure",
@@ -72,6 +51,27 @@ pub static SETTINGS: &[Setting] = &[
             },
             get: |config| config.server.cors_origins.to_string(),
         },
+    },
+    Setting {
+        name: "tls_cert",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
+        value: Value::File { field: |config| &mut config.server.tls.cert },
+    },
+    Setting {
+        name: "tls_key",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The certificate's private key, PEM",
+        value: Value::File { field: |config| &mut config.server.tls.key },
+    },
+    Setting {
+        name: "tls_client_ca",
+        scope: Scope::Service,
+        placeholder: "FILE",
+        help: "The authorities of clients, PEM; each then needs a certificate of theirs",
+        value: Value::File { field: |config| &mut config.server.tls.client_ca },
     },
     Setting {
         name: "threads",

@@ -18,10 +18,10 @@ mod timestamp;
 mod work;
 
 pub use body::message;
-pub(crate) use callback::innermost;
 pub use callback::{
     CallbackAllow, CallbackDelivery, CallbackFault, CallbackSecret, CallbackUrl, client_builder, trusted_roots,
 };
+pub(crate) use callback::{client_builder_with, innermost};
 pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
 pub use runner::Runner;

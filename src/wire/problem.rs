@@ -46,7 +46,7 @@ pub enum ProblemKind {
     /// The body is JSON, but not a request that can be answered.
     #[serde(rename = "urn:singulate:problem:invalid_request")]
     InvalidRequest,
-    /// No key, or one that does not hold.
+    /// No valid key or client certificate came with the request.
     #[serde(rename = "urn:singulate:problem:unauthorized")]
     Unauthorized,
     /// The key is for something else.
@@ -121,7 +121,7 @@ impl ProblemKind {
             Self::MalformedJson => (400, "The body is not JSON"),
             Self::BrokenBody => (400, "The body is incomplete"),
             Self::MalformedHttp => (400, "The request is not HTTP"),
-            Self::Unauthorized => (401, "A key is needed"),
+            Self::Unauthorized => (401, "Not authorized"),
             Self::Forbidden => (403, "The key is not for this"),
             Self::RateExceeded => (429, "Too many requests"),
             Self::NotFound => (404, "Nothing lives at this path"),

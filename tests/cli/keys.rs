@@ -7,6 +7,9 @@ use singulate::keys::Keys;
 
 use crate::{answered, failed, file, run, singulate};
 
+/// A service without a store ends at once, whatever else it makes of its settings.
+const NO_STORE: &str = "sqlite:/nowhere/jobs.db";
+
 /// A path of its own for each test, where nothing is yet.
 fn absent(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}.toml", std::process::id()));
@@ -72,7 +75,7 @@ fn what_makes_no_key_is_refused_and_leaves_the_file_as_it_was() {
 #[test]
 fn a_service_that_others_can_reach_does_not_start_unless_somebody_said_who_may_call() {
     for listen in ["0.0.0.0:0", "[::]:0", "192.0.2.1:1"] {
-        let errors = failed(&run(&["serve", "--listen", listen]), 2);
+        let errors = failed(&run(&["serve", "--listen", listen, "--jobs-url", NO_STORE]), 2);
         for way in ["singulate key new NAME --api-keys-file keys.toml", "--insecure", "SINGULATE_API_KEYS_FILE=FILE"] {
             assert!(errors.contains(way), "{errors}");
         }
@@ -83,25 +86,24 @@ fn a_service_that_others_can_reach_does_not_start_unless_somebody_said_who_may_c
 fn every_fault_of_a_keys_file_is_told_and_both_ways_at_once_are_a_contradiction() {
     let path = file("faults-keys.toml", "quiet = 'quiet'\n[[key]]\nname = 'quiet mouse'\nscopes = []\nrate = 1\n");
     let at = path.to_str().unwrap();
-    let errors = failed(&run(&["serve", "--listen", "127.0.0.1:0", "--api-keys-file", at]), 2);
+    let errors = failed(&run(&["serve", "--jobs-url", NO_STORE, "--api-keys-file", at]), 2);
     assert!(errors.lines().count() == 4 && errors.lines().all(|line| line.starts_with(at)), "{errors}");
     assert!(!errors.replace(at, "").contains("quiet"), "{errors}");
-    let missing = failed(&run(&["serve", "--api-keys-file", "/nowhere.toml"]), 2);
+    let missing = failed(&run(&["serve", "--jobs-url", NO_STORE, "--api-keys-file", "/nowhere.toml"]), 2);
     assert!(missing.starts_with("/nowhere.toml: "), "{missing}");
     for insecure in ["--insecure", "--insecure=true"] {
-        let errors = failed(&run(&["serve", "--api-keys-file", at, insecure]), 2);
+        let errors = failed(&run(&["serve", "--jobs-url", NO_STORE, "--api-keys-file", at, insecure]), 2);
         assert!(errors.starts_with("insecure serves everybody"), "{errors}");
     }
     // As a value the next word is none: it is a command's argument, and there is no such.
-    failed(&run(&["serve", "--insecure", "true"]), 2);
-    failed(&run(&["serve", "--insecure=maybe"]), 2);
+    failed(&run(&["serve", "--jobs-url", NO_STORE, "--insecure", "true"]), 2);
+    failed(&run(&["serve", "--jobs-url", NO_STORE, "--insecure=maybe"]), 2);
 }
 
 /// What a service says on stderr that has no store and so ends at once.
 fn said(arguments: &[&str], settings: &str) -> String {
     let config = file(&format!("said-{}-{}.toml", arguments.len(), settings.len()), settings);
-    let mut command =
-        singulate(&["serve", "--config", config.to_str().unwrap(), "--jobs-url", "sqlite:/nowhere/jobs.db"]);
+    let mut command = singulate(&["serve", "--config", config.to_str().unwrap(), "--jobs-url", NO_STORE]);
     let output = command.args(arguments).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     String::from_utf8(output.stderr).unwrap()

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "what fails here fails the test")]
 
+mod client_scenes;
 mod commands;
 mod controllers;
 mod errors;
@@ -14,6 +15,7 @@ mod readme;
 mod scenes;
 mod service;
 mod settings;
+mod tls;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

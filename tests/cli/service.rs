@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
-use std::process::{Child, ChildStdout, ExitStatus, Stdio};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
@@ -12,10 +12,10 @@ use crate::scenes::ALONE;
 use crate::{answered, failed, run, singulate};
 
 /// A service on a free port; it ends with the test.
-struct Service {
+pub(crate) struct Service {
     child: Child,
-    out: BufReader<ChildStdout>,
-    url: String,
+    pub(crate) out: BufReader<ChildStdout>,
+    pub(crate) url: String,
 }
 
 impl Service {
@@ -24,15 +24,20 @@ impl Service {
     }
 
     /// Without a command it serves: only variables say where.
-    fn with(variables: &[(&str, &str)]) -> Self {
+    pub(crate) fn with(variables: &[(&str, &str)]) -> Self {
         let mut command = singulate(&[]);
         command.env("SINGULATE_LISTEN", "127.0.0.1:0").env("SINGULATE_LOG", "warn");
         command.env("SINGULATE_JOBS_URL", "sqlite::memory:").envs(variables.iter().copied());
+        Self::of(command)
+    }
+
+    /// What the command starts.
+    pub(crate) fn of(mut command: Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
         out.read_line(&mut line).unwrap();
-        let url = line.split_whitespace().find(|word| word.starts_with("http://")).unwrap().to_owned();
+        let url = line.split_whitespace().find(|word| word.starts_with("http")).unwrap().to_owned();
         Self { child, out, url }
     }
 
@@ -51,12 +56,12 @@ impl Service {
         line
     }
 
-    fn signal(&self, signal: Signal) {
+    pub(crate) fn signal(&self, signal: Signal) {
         kill_process(Pid::from_child(&self.child), signal).unwrap();
     }
 
     /// The status with which the process ends, long before any time limit would end it.
-    fn ended(&mut self) -> ExitStatus {
+    pub(crate) fn ended(&mut self) -> ExitStatus {
         let started = Instant::now();
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {

@@ -24,6 +24,7 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 pub(crate) struct Host {
     pub(crate) address: SocketAddr,
     pub(crate) client: reqwest::Client,
+    scheme: &'static str,
     stop: watch::Sender<()>,
     task: JoinHandle<std::io::Result<()>>,
 }
@@ -38,6 +39,7 @@ impl Host {
         if settings.jobs.url == JobSettings::default().url {
             settings.jobs.url = "sqlite::memory:".to_owned();
         }
+        let scheme = if settings.tls.cert.is_some() { "https" } else { "http" };
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = listener.local_addr().unwrap();
         let (stop, mut stopped) = watch::channel(());
@@ -46,11 +48,11 @@ impl Host {
             let _ = stopped.changed().await;
         }));
         let client = client_builder(trusted_roots()).build().unwrap();
-        Self { address, client, stop, task }
+        Self { address, client, scheme, stop, task }
     }
 
     pub(crate) fn url(&self, path: &str) -> String {
-        format!("http://{}{path}", self.address)
+        format!("{}://{}{path}", self.scheme, self.address)
     }
 
     pub(crate) async fn get(&self, path: &str) -> Reply {

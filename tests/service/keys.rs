@@ -1,15 +1,18 @@
 //! Keys: who is let in, what for, how often, and who sees which jobs.
 
 use core::time::Duration;
+use std::io::Write;
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
 use singulate::keys::{FreshKey, append};
+use tokio::task::spawn_blocking;
 use tokio::time::{sleep, timeout};
 
-use crate::host::{Host, PATIENCE, Reply, endless, scene};
+use crate::host::{Host, PATIENCE, Reply, endless, read_to_end, scene};
 
 /// More than any test asks.
 const OFTEN: &str = "1000000";
@@ -179,8 +182,16 @@ async fn whoever_is_refused_learns_it_before_and_after_a_large_body() {
     let said = guarded.host.ask(&format!("{head}\r\nexpect: 100-continue\r\ncontent-length: 9\r\n\r\n")).await;
     assert!(said.starts_with("HTTP/1.1 401 "), "{said}");
     // A client that reads its answer only once it has sent everything.
-    let body = json!("x".repeat(20_000_000));
-    guarded.ask("POST", "/v1/plans", &[], Some(&body)).await.is_problem(401, "unauthorized");
+    let body = "x".repeat(20_000_000);
+    let whole = format!("{head}\r\ncontent-length: {}\r\n\r\n{body}", body.len());
+    let address = guarded.host.address;
+    let sent = spawn_blocking(move || {
+        let mut stream = TcpStream::connect(address).unwrap();
+        stream.write_all(whole.as_bytes()).unwrap();
+        stream
+    });
+    let said = read_to_end(timeout(PATIENCE, sent).await.unwrap().unwrap()).await;
+    assert!(said.starts_with("HTTP/1.1 401 "), "{said}");
 }
 
 #[tokio::test]

@@ -18,3 +18,4 @@ mod knowledge;
 mod metrics;
 mod negotiation;
 mod planning;
+mod tls;

@@ -16,7 +16,11 @@ use rustls::{ClientConfig, RootCertStore};
 pub fn client_builder(roots: RootCertStore) -> ClientBuilder {
     let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()));
     let config = config.with_safe_default_protocol_versions().expect("ring speaks TLS 1.2 and 1.3");
-    let config = config.with_root_certificates(roots).with_no_client_auth();
+    client_builder_with(config.with_root_certificates(roots).with_no_client_auth())
+}
+
+/// A client that speaks TLS in this way, and asks no proxy.
+pub(crate) fn client_builder_with(config: ClientConfig) -> ClientBuilder {
     ClientBuilder::new().tls_backend_preconfigured(config).no_proxy()
 }
 

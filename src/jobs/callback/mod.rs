@@ -15,8 +15,8 @@ mod silent;
 mod tests;
 
 pub use allow::CallbackAllow;
-pub(crate) use client::innermost;
 pub use client::{client_builder, trusted_roots};
+pub(crate) use client::{client_builder_with, innermost};
 pub use deliver::CallbackDelivery;
 pub use destination::{CallbackFault, CallbackUrl};
 pub use sign::CallbackSecret;

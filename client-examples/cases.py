@@ -1,0 +1,163 @@
+"""What every client example must do, case by case."""
+
+import json
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from faults import Canned, CutOff, Drip, Pass, Proxy, Request, Reset, Step
+
+SCENES = Path(__file__).parent / "scenes"
+INVALID = SCENES / "invalid.json"
+WRONG_KEY = "sgl_" + 43 * "x"
+STATISTICS = {"knowledge_ms": 0.0, "search_ms": 0.0, "placement_ms": 0.0, "check_ms": 0.0}
+STEP = {
+    "action": "pick_place",
+    "object": "plate-2",
+    "from": {"x": 0.31, "y": 0.2},
+    "to": {"x": 0.0627, "y": -0.0001},
+    "grasp": {"yaw": 1.25, "slack": 0.1},
+    "release": {"yaw": -0.0004, "slack": 0.1},
+    "gap": 0.1,
+}
+MOVE = "move plate-2 from 0.310 0.200 to 0.063 0.000, grasp at 1.250, release at 0.000\n"
+
+
+@dataclass(frozen=True)
+class Case:
+    name: str
+    scene: Path
+    stdout: str
+    status: int
+    stderr: str = ""
+    """Must be part of what the client says."""
+    server: Callable[[], AbstractContextManager[Any]] = nullcontext
+    """Where it is asked: a proxy, or an address; nothing means the service itself."""
+    key: str | None = None
+    """Another key than the right one."""
+    check: Callable[[list[Request]], str | None] = lambda _: None
+    """What is wrong with the requests, if anything."""
+
+
+def answer(verdict: str, **parts: Any) -> Canned:
+    nothing = ("scene_id", "target_grasp", "cost", "lower_bound", "optimal", "landmarks", "deadlock", "needed")
+    whole = {"verdict": verdict, "target": "cup", "relocations": [], "warnings": [], "statistics": STATISTICS}
+    return Canned(200, {**whole, **dict.fromkeys(nothing), **parts})
+
+
+def problem(status: int, kind: str, title: str, **headers: str) -> Canned:
+    body = {"type": f"urn:singulate:problem:{kind}", "title": title, "status": status, "detail": title, "errors": []}
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    return Canned(status, body, {"content-type": "application/problem+json", **named})
+
+
+def scene_cases(refusal: Any) -> Iterator[Case]:
+    """Every scene against the service itself, which refuses one of them."""
+    faults = "".join(f"{fault['code']} {fault['pointer']}: {fault['detail']}\n" for fault in refusal["errors"])
+    for path in sorted(SCENES.glob("*.json")):
+        *lines, end = (SCENES / "expected" / f"{path.stem}.txt").read_text().splitlines(keepends=True)
+        status = int(end.removeprefix("exit "))
+        yield Case(path.stem, path, "".join(lines), status, faults if path == INVALID else "")
+
+
+def wrong_key_case(refusal: Any) -> Case:
+    return Case("wrong key", SCENES / "one-move.json", "", 6, refusal["title"], key=WRONG_KEY)
+
+
+@contextmanager
+def nobody() -> Iterator[str]:
+    """An address where nobody listens, and nobody else can."""
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        yield f"http://127.0.0.1:{taken.getsockname()[1]}"
+
+
+def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
+    def proxy(*steps: Step, then: Step | None = None) -> Callable[[], Proxy]:
+        return lambda: Proxy(list(steps), then or Pass(), upstream)
+
+    def scene(name: str, **settings: Any) -> Path:
+        path = folder / f"{name}.json"
+        whole = json.loads((SCENES / "one-move.json").read_text())
+        path.write_text(json.dumps({**whole, "settings": settings}))
+        return path
+
+    one_move = SCENES / "one-move.json"
+    *lines, _ = (SCENES / "expected" / "one-move.txt").read_text().splitlines(keepends=True)
+    moved = "".join(lines)
+    busy = problem(503, "overloaded", "Too busy", retry_after="1")
+    hasty = problem(429, "rate_exceeded", "Too many requests", retry_after="1")
+    grasp = {"yaw": 0.5, "slack": 0.1}
+    free = answer("graspable", target_grasp=grasp)
+
+    yield Case("four faults", one_move, moved, 0, server=proxy(Reset(), busy, hasty, CutOff()), check=four_faults)
+    yield Case("nobody there", one_move, "", 1, "gave up: ", server=nobody)
+    silent = problem(503, "overloaded", "Too busy")
+    yield Case("always busy", one_move, "", 1, "gave up: Too busy", proxy(then=silent), check=five_tries)
+    slow = scene("slow", time_limit_ms=1)
+    yield Case("dripping", slow, "grasp cup at 0.500\n", 0, server=proxy(Drip(), then=free), check=counted(2))
+    strange = answer("push_aside", relocations=[STEP], target_grasp=grasp)
+    yield Case("unknown verdict", one_move, "", 1, "push_aside", proxy(then=strange), check=counted(1))
+    pushed = answer("relocate", relocations=[{**STEP, "action": "push"}], target_grasp=grasp)
+    yield Case("unknown action", one_move, "", 1, "push", proxy(then=pushed), check=counted(1))
+    ghost = answer("relocate", relocations=[{**STEP, "object": "ghost"}], target_grasp=grasp)
+    yield Case("unknown object", one_move, "", 1, "ghost", proxy(then=ghost), check=counted(1))
+    torn = Canned(200, {"verdict": "graspable", "target": "cup"})
+    yield Case("torn answer", one_move, "", 1, server=proxy(then=torn), check=counted(1))
+    forbidden = problem(403, "forbidden", "Not with this key")
+    yield Case("forbidden", one_move, "", 6, "Not with this key", proxy(then=forbidden), check=counted(1))
+    broken = problem(500, "internal", "A fault of ours")
+    yield Case("fault of ours", one_move, "", 1, "A fault of ours", proxy(then=broken), check=counted(1))
+    late = answer("timed_out", needed=["a", "b"])
+    told = "timed out: a, b would have to go\n"
+    yield Case("timed out", one_move, told, 5, server=proxy(then=late), check=limits(None, 10_000))
+    patient, unknown = scene("patient", time_limit_ms=20_000), answer("timed_out")
+    capped = limits(20_000, 60_000)
+    yield Case("timed out, nothing known", patient, "timed out\n", 5, server=proxy(then=unknown), check=capped)
+    twice = proxy(late, free)
+    yield Case("in time at last", one_move, "grasp cup at 0.500\n", 0, server=twice, check=limits(None, 10_000))
+    endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=grasp))
+    yield Case("a hundred rounds", one_move, 100 * MOVE, 1, server=endless, check=hundred_rounds)
+
+
+def counted(count: int) -> Callable[[list[Request]], str | None]:
+    return lambda requests: None if len(requests) == count else f"{len(requests)} requests, not {count}"
+
+
+def four_faults(requests: list[Request]) -> str | None:
+    """The four, then the two rounds of the scene; a client that is told to wait a second does."""
+    pauses = [later.at - earlier.at for earlier, later in zip(requests, requests[1:])]
+    least = (0.2, 1.0, 1.0, 0.2)
+    for number, (pause, wanted) in enumerate(zip(pauses, least), 1):
+        if pause < wanted:
+            return f"{pause:.2f} s after fault {number}, not {wanted}"
+    if any(request.body["scene_id"] != "one-move" for request in requests):
+        return "scene_id is not sent as it stands"
+    return counted(6)(requests)
+
+
+def five_tries(requests: list[Request]) -> str | None:
+    pauses = [later.at - earlier.at for earlier, later in zip(requests, requests[1:])]
+    return "without Retry-After it waits less than a second" if min(pauses, default=0) < 1 else counted(5)(requests)
+
+
+def limits(first: int | None, longer: int) -> Callable[[list[Request]], str | None]:
+    """Two asks; the first by what the scene names, if anything."""
+
+    def check(requests: list[Request]) -> str | None:
+        sent = [request.body.get("settings", {}).get("time_limit_ms") for request in requests]
+        return None if sent == [first, longer] else f"time limits {sent}, not {[first, longer]}"
+
+    return check
+
+
+def hundred_rounds(requests: list[Request]) -> str | None:
+    """Each with the scene as the last move left it."""
+    for request in requests[1:]:
+        moved = next(item for item in request.body["objects"] if item["id"] == "plate-2")
+        if (moved["x"], moved["y"]) != (0.0627, -0.0001):
+            return f"the scene was not updated: {moved}"
+    return counted(100)(requests)

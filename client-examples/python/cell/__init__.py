@@ -1,0 +1,1 @@
+"""A cell controller that asks singulate what to move first."""

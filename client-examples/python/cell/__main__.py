@@ -1,0 +1,94 @@
+"""Frees the target of a scene, move by move: python -m cell SCENE.json"""
+
+import asyncio
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from .answers import Deadlock, Graspable, NoSpace, Relocate, Relocation, TimedOut, Unknown, read
+from .service import GaveUp, Refused, Service
+
+ROUNDS = 100
+DEFAULT_LIMIT_MS = 1000
+LONGEST_LIMIT_MS = 60_000
+"""The service's own limits, where its operator has not changed them."""
+
+
+def number(value: float) -> str:
+    """Millimetres and milliradians; what rounds to zero has no sign."""
+    return f"{value:z.3f}"
+
+
+def time_limit_ms(scene: dict[str, Any]) -> int:
+    """What the scene names. Whether it is in order is for the service to say."""
+    settings = scene.get("settings")
+    named = settings.get("time_limit_ms") if isinstance(settings, dict) else None
+    return named if isinstance(named, int) else DEFAULT_LIMIT_MS
+
+
+def relocate(scene: dict[str, Any], move: Relocation) -> None:
+    """Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that."""
+    moved = next((item for item in scene["objects"] if item["id"] == move.object), None)
+    if moved is None:
+        raise Unknown(f"no object '{move.object}' in the scene")
+    places = f"from {number(move.start.x)} {number(move.start.y)} to {number(move.to.x)} {number(move.to.y)}"
+    yaws = f"grasp at {number(move.grasp_yaw)}, release at {number(move.release_yaw)}"
+    print(f"move {move.object} {places}, {yaws}", flush=True)
+    moved["x"], moved["y"] = move.to.x, move.to.y
+
+
+def report(words: str, ids: tuple[str, ...], what: str, status: int) -> int:
+    print(f"{words}: {', '.join(ids)} {what}" if ids else words)
+    return status
+
+
+async def free(service: Service, scene: dict[str, Any]) -> int:
+    """The exit status: 0 once the target is grasped."""
+    limit = time_limit_ms(scene)
+    for _ in range(ROUNDS):
+        answer = read(await service.plan(scene, limit))
+        if isinstance(answer, TimedOut):
+            longer = min(10 * limit, LONGEST_LIMIT_MS)
+            patient = {**scene, "settings": {**scene.get("settings", {}), "time_limit_ms": longer}}
+            answer = read(await service.plan(patient, longer))
+        match answer:
+            case Relocate(first):
+                relocate(scene, first)
+            case Graspable(target, yaw):
+                print(f"grasp {target} at {number(yaw)}")
+                return 0
+            case Deadlock(core):
+                return report("deadlock", core, "hold each other", 3)
+            case NoSpace(needed):
+                return report("no space", needed, "would have to go", 4)
+            case TimedOut(needed):
+                return report("timed out", needed, "would have to go", 5)
+    raise GaveUp(f"the target is not free after {ROUNDS} moves")
+
+
+async def main(path: str) -> int:
+    service = Service(os.environ.get("SINGULATE_URL", "http://127.0.0.1:8080"), os.environ.get("SINGULATE_KEY"))
+    try:
+        return await free(service, json.loads(Path(path).read_text(encoding="utf-8")))
+    except Refused as refused:
+        if refused.status == 422:
+            for fault in refused.faults:
+                print(f"{fault['code']} {fault['pointer']}: {fault['detail']}", file=sys.stderr)
+            return 2
+        print(refused, file=sys.stderr)
+        return 6 if refused.status in (401, 403) else 1
+    except GaveUp as reason:
+        print(f"gave up: {reason}", file=sys.stderr)
+    except (Unknown, OSError, ValueError) as error:
+        print(error, file=sys.stderr)
+    finally:
+        await service.close()
+    return 1
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("how to call it: python -m cell SCENE.json")
+    sys.exit(asyncio.run(main(sys.argv[1])))

@@ -1,0 +1,98 @@
+"""Answers of the service, each verdict a type of its own."""
+
+from dataclasses import dataclass
+from typing import Any
+
+
+class Unknown(Exception):
+    """An answer that this client does not understand. It must not act on it."""
+
+
+@dataclass(frozen=True)
+class Place:
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class Relocation:
+    object: str
+    start: Place
+    to: Place
+    grasp_yaw: float
+    release_yaw: float
+
+
+@dataclass(frozen=True)
+class Graspable:
+    target: str
+    yaw: float
+
+
+@dataclass(frozen=True)
+class Relocate:
+    """The plan. Only its first step is followed: the others are planned again once the table is seen again."""
+
+    first: Relocation
+
+
+@dataclass(frozen=True)
+class Deadlock:
+    core: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class NoSpace:
+    needed: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class TimedOut:
+    needed: tuple[str, ...]
+
+
+Answer = Graspable | Relocate | Deadlock | NoSpace | TimedOut
+
+
+def read(body: Any) -> Answer:
+    """The answer in a decoded body, or Unknown."""
+    try:
+        return _verdict(body)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise Unknown(f"the answer lacks a part or has a wrong one: {error!r}") from error
+
+
+def _verdict(body: Any) -> Answer:
+    match body["verdict"]:
+        case "graspable":
+            return Graspable(str(body["target"]), float(body["target_grasp"]["yaw"]))
+        case "relocate":
+            return Relocate([_relocation(step) for step in body["relocations"]][0])
+        case "deadlock":
+            return Deadlock(_ids((body["deadlock"] or {}).get("core")))
+        case "no_space":
+            return NoSpace(_ids(body["needed"]))
+        case "timed_out":
+            return TimedOut(_ids(body["needed"]))
+        case verdict:
+            raise Unknown(f"unknown verdict '{verdict}'")
+
+
+def _relocation(step: Any) -> Relocation:
+    if step["action"] != "pick_place":
+        raise Unknown(f"unknown action '{step['action']}'")
+    return Relocation(
+        object=str(step["object"]),
+        start=_place(step["from"]),
+        to=_place(step["to"]),
+        grasp_yaw=float(step["grasp"]["yaw"]),
+        release_yaw=float(step["release"]["yaw"]),
+    )
+
+
+def _place(body: Any) -> Place:
+    return Place(float(body["x"]), float(body["y"]))
+
+
+def _ids(body: Any) -> tuple[str, ...]:
+    return tuple(str(name) for name in body or ())

@@ -1,0 +1,94 @@
+"""The service as its client sees it: one question, asked again where that can help."""
+
+import asyncio
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import httpx
+
+TRIES = 5
+FIRST_PAUSE = 0.2
+"""Seconds before a lost connection is tried again; each pause is twice the last."""
+LONGEST_WAIT = 60
+BEYOND_THE_TIME_LIMIT = 5.0
+"""Seconds that a call may take longer than the planning that it asks for."""
+
+
+class Refused(Exception):
+    """An answer that asking again does not change."""
+
+    def __init__(self, status: int, problem: Any) -> None:
+        title = problem.get("title") if isinstance(problem, dict) else None
+        super().__init__(title or f"status {status}")
+        self.status = status
+        self.faults: list[dict[str, str]] = problem.get("errors", []) if isinstance(problem, dict) else []
+
+
+class GaveUp(Exception):
+    """No answer, however often it was asked."""
+
+
+@dataclass(frozen=True)
+class Again:
+    """Why there is no answer yet, and how long to wait for the next try."""
+
+    reason: str
+    pause: float
+
+
+class Service:
+    def __init__(self, url: str, key: str | None) -> None:
+        headers = {"authorization": f"Bearer {key}"} if key else {}
+        # The call's own limit is a limit of the whole call; httpx would count each read by itself.
+        self._client = httpx.AsyncClient(base_url=url, headers=headers, timeout=None)
+
+    async def close(self) -> None:
+        await self._client.aclose()
+
+    async def plan(self, scene: dict[str, Any], time_limit_ms: int) -> Any:
+        """The answer's body. Planning changes nothing on the server, so asking again is safe."""
+        reason = ""
+        for tried in range(1, TRIES + 1):
+            outcome = await self._try(scene, time_limit_ms / 1000 + BEYOND_THE_TIME_LIMIT, tried)
+            if not isinstance(outcome, Again):
+                return outcome
+            reason = outcome.reason
+            if tried < TRIES:
+                print(f"{reason}: again in {outcome.pause:g} s", file=sys.stderr)
+                await asyncio.sleep(outcome.pause)
+        raise GaveUp(reason)
+
+    async def _try(self, scene: dict[str, Any], limit: float, tried: int) -> Any:
+        try:
+            async with asyncio.timeout(limit):
+                response = await self._client.post("/v1/plans", json=scene)
+        except TimeoutError:
+            return Again(f"no answer within {limit:g} s", _pause(tried))
+        except httpx.TransportError as error:
+            return Again(f"connection lost: {error}", _pause(tried))
+        body = _decoded(response)
+        match response.status_code:
+            case 200:
+                return body
+            case 429 | 503 as status:
+                return Again(str(Refused(status, body)), _retry_after(response.headers.get("retry-after")))
+            case status:
+                raise Refused(status, body)
+
+
+def _pause(tried: int) -> float:
+    return FIRST_PAUSE * 2.0 ** (tried - 1)
+
+
+def _retry_after(header: str | None) -> float:
+    """A date, which the header may hold too, is one that the service does not send."""
+    return float(min(int(header), LONGEST_WAIT)) if header and header.isdecimal() else 1.0
+
+
+def _decoded(response: httpx.Response) -> Any:
+    """None where the body is no JSON: something else than the service has answered."""
+    try:
+        return response.json()
+    except ValueError:
+        return None

@@ -1,0 +1,124 @@
+//! The service as its client sees it: one question, asked again where that can help.
+
+use core::error::Error;
+use core::time::Duration;
+
+use reqwest::header::RETRY_AFTER;
+use reqwest::{Client, Response, StatusCode};
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::answer::Answer;
+
+const TRIES: u32 = 5;
+/// Before a lost connection is tried again; each pause is twice the last.
+const FIRST_PAUSE: Duration = Duration::from_millis(200);
+const LONGEST_WAIT: Duration = Duration::from_secs(60);
+/// How much longer a call may take than the planning that it asks for.
+const BEYOND_THE_TIME_LIMIT: Duration = Duration::from_secs(5);
+
+/// Why there is no answer.
+pub(crate) enum Failure {
+    /// The scene is not in order.
+    Invalid(Vec<Fault>),
+    /// The key is missing, wrong, or not meant for this.
+    Forbidden(String),
+    Other(String),
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Fault {
+    pub(crate) code: String,
+    pub(crate) pointer: String,
+    pub(crate) detail: String,
+}
+
+/// What went wrong, in the service's words. Something else may have answered: then there is nothing in it.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct Problem {
+    title: Option<String>,
+    errors: Vec<Fault>,
+}
+
+/// How one try ended without an answer that counts.
+enum Setback {
+    Again { reason: String, pause: Duration },
+    ForGood(Failure),
+}
+
+pub(crate) struct Service {
+    client: Client,
+    url: String,
+    key: Option<String>,
+}
+
+impl Service {
+    pub(crate) fn new(url: &str, key: Option<String>) -> Result<Self, Failure> {
+        // The features of reqwest that are at hand leave the choice of cryptography to us. Only a second one is refused.
+        let _ = rustls::crypto::ring::default_provider().install_default();
+        let client = Client::builder().build().map_err(|error| Failure::Other(innermost(&error)))?;
+        Ok(Self { client, url: format!("{}/v1/plans", url.trim_end_matches('/')), key })
+    }
+
+    /// Ask until there is an answer. Planning changes nothing on the server, so asking again is safe.
+    pub(crate) async fn plan(&self, scene: &Value, limit_ms: u64) -> Result<Answer, Failure> {
+        let limit = Duration::from_millis(limit_ms) + BEYOND_THE_TIME_LIMIT;
+        for tried in 1.. {
+            match self.once(scene, limit, FIRST_PAUSE * 2_u32.pow(tried - 1)).await {
+                Ok(answer) => return Ok(answer),
+                Err(Setback::ForGood(failure)) => return Err(failure),
+                Err(Setback::Again { reason, .. }) if tried == TRIES => {
+                    return Err(Failure::Other(format!("gave up: {reason}")));
+                }
+                Err(Setback::Again { reason, pause }) => {
+                    eprintln!("{reason}: again in {} s", pause.as_secs_f64());
+                    tokio::time::sleep(pause).await;
+                }
+            }
+        }
+        unreachable!("the last try has returned")
+    }
+
+    async fn once(&self, scene: &Value, limit: Duration, pause: Duration) -> Result<Answer, Setback> {
+        let lost = |error: reqwest::Error| {
+            let what = if error.is_timeout() { "no answer in time".to_owned() } else { innermost(&error) };
+            Setback::Again { reason: format!("connection lost: {what}"), pause }
+        };
+        let request = self.client.post(&self.url).header("content-type", "application/json").timeout(limit);
+        let request = match &self.key {
+            Some(key) => request.bearer_auth(key),
+            None => request,
+        };
+        let response = request.body(scene.to_string()).send().await.map_err(lost)?;
+        let (status, wait) = (response.status(), retry_after(&response));
+        let body = response.text().await.map_err(lost)?;
+        if status == StatusCode::OK {
+            return Answer::read(&body).map_err(|error| Setback::ForGood(Failure::Other(format!("refused: {error}"))));
+        }
+        let problem: Problem = serde_json::from_str(&body).unwrap_or_default();
+        let title = problem.title.unwrap_or_else(|| format!("status {status}"));
+        Err(match status {
+            StatusCode::TOO_MANY_REQUESTS | StatusCode::SERVICE_UNAVAILABLE => {
+                Setback::Again { reason: title, pause: wait }
+            }
+            StatusCode::UNPROCESSABLE_ENTITY => Setback::ForGood(Failure::Invalid(problem.errors)),
+            StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN => Setback::ForGood(Failure::Forbidden(title)),
+            _ => Setback::ForGood(Failure::Other(title)),
+        })
+    }
+}
+
+/// A date, which the header may hold too, is one that the service does not send.
+fn retry_after(response: &Response) -> Duration {
+    let text = response.headers().get(RETRY_AFTER).and_then(|value| value.to_str().ok());
+    text.and_then(|text| text.parse().ok()).map_or(Duration::from_secs(1), Duration::from_secs).min(LONGEST_WAIT)
+}
+
+/// The cause that says something, without the URL that the others repeat.
+fn innermost(error: &dyn Error) -> String {
+    match error.source() {
+        Some(cause) => innermost(cause),
+        None => error.to_string(),
+    }
+}

@@ -1,0 +1,57 @@
+//! Certificates that may be replaced while the service runs.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use rustls::ServerConfig;
+use tokio::sync::watch;
+
+use super::server::Server;
+use super::{Acceptor, TlsError, TlsSettings};
+use crate::watched_files::WatchedFiles;
+
+/// The service's certificate with its key, and the authorities of its clients, as they are in their files now.
+pub struct Certificates {
+    paths: Vec<PathBuf>,
+    files: WatchedFiles,
+    /// At the start.
+    fingerprint: String,
+    config: watch::Sender<Arc<ServerConfig>>,
+}
+
+impl Certificates {
+    /// Read them. None where TLS is not spoken.
+    ///
+    /// # Errors
+    /// If files are missing, or can't be read, or don't fit together.
+    pub fn read(settings: &TlsSettings) -> Result<Option<Self>, TlsError> {
+        let Some(paths) = settings.files()? else { return Ok(None) };
+        let files = WatchedFiles::read(paths.clone())?;
+        let Server { config, fingerprint } = Server::new(&paths, files.contents())?;
+        Ok(Some(Self { paths, files, fingerprint, config: watch::Sender::new(config) }))
+    }
+
+    /// Accepts connections, each with the certificate of its moment.
+    pub fn acceptor(&self) -> Acceptor {
+        Acceptor::new(self.config.subscribe())
+    }
+
+    /// Look after the files for ever. Connections that are open live on when a certificate is replaced. Files that don't
+    /// fit together, perhaps because only one of them is written yet, change nothing.
+    pub async fn keep_current(mut self) {
+        tracing::info!(sha256 = %self.fingerprint, "certificate");
+        loop {
+            self.files.changed().await;
+            if let Err(error) = self.replace() {
+                tracing::error!(%error, "the certificate was not replaced");
+            }
+        }
+    }
+
+    fn replace(&mut self) -> Result<(), TlsError> {
+        let Server { config, fingerprint } = Server::new(&self.paths, self.files.contents())?;
+        self.config.send_replace(config);
+        tracing::info!(sha256 = %fingerprint, "certificate replaced");
+        Ok(())
+    }
+}

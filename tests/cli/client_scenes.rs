@@ -1,0 +1,102 @@
+//! What the client examples are to print is what `plan` says, asked again after each move.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::{answered, failed, run, run_with_input};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("client-examples/scenes")
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The scenes' names; each has a file of what a client prints for it.
+fn names() -> Vec<String> {
+    let stem = |path: PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
+    let files = |folder: &Path, kind: &str| {
+        let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let mut names: Vec<String> =
+            paths.filter(|path| path.extension().is_some_and(|it| it == kind)).map(stem).collect();
+        names.sort();
+        names
+    };
+    let names = files(&folder(), "json");
+    assert_eq!(names, files(&folder().join("expected"), "txt"));
+    names
+}
+
+fn ids(list: &Value) -> String {
+    list.as_array().unwrap().iter().map(|id| id.as_str().unwrap()).collect::<Vec<_>>().join(", ")
+}
+
+/// A number as the clients print it.
+fn number(value: &Value) -> String {
+    format!("{:.3}", value.as_f64().unwrap())
+}
+
+/// Carry the first relocation out in the scene, and say so in the clients' words.
+fn relocate(scene: &mut Value, step: &Value) -> String {
+    let objects = scene["objects"].as_array_mut().unwrap();
+    let moved = objects.iter_mut().find(|object| object["id"] == step["object"]).unwrap();
+    moved["x"] = step["to"]["x"].clone();
+    moved["y"] = step["to"]["y"].clone();
+    let [from_x, from_y] = [&step["from"]["x"], &step["from"]["y"]].map(number);
+    let [to_x, to_y] = [&step["to"]["x"], &step["to"]["y"]].map(number);
+    let [grasp, release] = [&step["grasp"]["yaw"], &step["release"]["yaw"]].map(number);
+    let object = step["object"].as_str().unwrap();
+    format!("move {object} from {from_x} {from_y} to {to_x} {to_y}, grasp at {grasp}, release at {release}\n")
+}
+
+/// What a client prints for a scene in order, and its exit status.
+fn followed(mut scene: Value) -> String {
+    let mut said = String::new();
+    for _ in 0..100 {
+        let answer: Value =
+            serde_json::from_str(&answered(run_with_input(&["plan", "-"], &scene.to_string()))).unwrap();
+        let last = match answer["verdict"].as_str().unwrap() {
+            "relocate" => {
+                said.push_str(&relocate(&mut scene, &answer["relocations"][0]));
+                continue;
+            }
+            "graspable" => {
+                let target = answer["target"].as_str().unwrap();
+                format!("grasp {target} at {}\nexit 0\n", number(&answer["target_grasp"]["yaw"]))
+            }
+            "deadlock" => format!("deadlock: {} hold each other\nexit 3\n", ids(&answer["deadlock"]["core"])),
+            "no_space" => format!("no space: {} would have to go\nexit 4\n", ids(&answer["needed"])),
+            "timed_out" => format!("timed out: {} would have to go\nexit 5\n", ids(&answer["needed"])),
+            verdict => panic!("{verdict}"),
+        };
+        return said + &last;
+    }
+    panic!("no end: {said}");
+}
+
+#[test]
+fn every_client_scene_is_answered_as_the_clients_expect() {
+    let mut ends = Vec::new();
+    for name in names() {
+        let expected = read(&folder().join("expected").join(&name).with_extension("txt"));
+        let path = folder().join(&name).with_extension("json");
+        let mut scene: Value = serde_json::from_str(&read(&path)).unwrap();
+        if name == "invalid" {
+            assert_eq!(expected, "exit 2\n");
+            assert!(failed(&run(&["plan", path.to_str().unwrap()]), 2).lines().count() > 2, "several faults at once");
+            continue;
+        }
+        assert_eq!(scene["scene_id"], name);
+        if name == "timed-out" {
+            // It ends at the limit of memory; however slow the machine is, time must not end it first.
+            scene["settings"]["time_limit_ms"] = 60_000.into();
+        }
+        assert_eq!(followed(scene), expected, "{name}");
+        ends.push(expected.trim_end().rsplit(' ').next().unwrap().to_owned());
+    }
+    for status in ["0", "3", "4", "5"] {
+        assert!(ends.iter().any(|end| end == status), "no scene ends with {status}");
+    }
+}

@@ -1,0 +1,129 @@
+//! What is asked over TLS is answered as it is without.
+
+use core::time::Duration;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rustls::version;
+use singulate::api::{Engine, ServerSettings};
+use singulate::budget::Budget;
+use singulate::plan::{Answer, PlanError, Settings};
+use singulate::scene::Scene;
+use tokio::io::AsyncWriteExt;
+
+use super::authority::Authority;
+use super::{answers, connect, others_are_served, raw, read_to_end, rested, secure_host};
+use crate::host::{Host, PATIENCE, raw_plan, scene, wait_until};
+use crate::jobs::{crowded, path, submit};
+use crate::planning::{endless, wait_for_the_end};
+
+#[tokio::test]
+async fn a_plan_comes_over_tls_with_word_to_come_back_by_tls() {
+    let authority = Authority::new("plan");
+    let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
+    let reply = host.post("/v1/plans", &scene(60_000)).await;
+    assert_eq!((reply.status, &reply.json()["verdict"]), (200, &"graspable".into()));
+    assert_eq!(reply.header("strict-transport-security"), "max-age=31536000");
+    let stream = connect(&host, &authority.client(None)).await.unwrap();
+    assert_eq!(stream.get_ref().1.protocol_version(), Some(rustls::ProtocolVersion::TLSv1_3));
+    let without = Host::start().await.get("/livez").await;
+    assert_eq!(without.header("strict-transport-security"), "");
+}
+
+#[tokio::test]
+async fn http_1_1_is_chosen_and_who_speaks_only_another_protocol_is_refused() {
+    let authority = Authority::new("alpn");
+    let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
+    for (offered, chosen) in [(&["h2", "http/1.1"][..], Some(&b"http/1.1"[..])), (&["h2"], None), (&[], None)] {
+        let mut client = rustls::ClientConfig::clone(&authority.client(None));
+        client.alpn_protocols = offered.iter().map(|name| name.as_bytes().to_vec()).collect();
+        let connected = connect(&host, &client.into()).await;
+        assert_eq!(connected.is_ok(), chosen.is_some() || offered.is_empty(), "{offered:?}");
+        if let Ok(stream) = connected {
+            assert_eq!(stream.get_ref().1.alpn_protocol(), chosen);
+        }
+    }
+}
+
+#[tokio::test]
+async fn an_older_version_is_refused() {
+    let authority = Authority::new("older");
+    let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
+    let refused = connect(&host, &authority.client_of(&version::TLS12, None)).await.unwrap_err();
+    assert!(refused.to_string().contains("ProtocolVersion"), "{refused}");
+    others_are_served(&host, &authority.client(None)).await;
+}
+
+#[tokio::test]
+async fn whoever_speaks_plain_http_is_told_that_this_is_tls() {
+    let authority = Authority::new("plain");
+    let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
+    for request in ["GET /livez HTTP/1.1\r\nhost: x\r\n\r\n".to_owned(), raw_plan(&scene(1000))] {
+        let text = host.ask(&request).await;
+        assert!(text.starts_with("HTTP/1.1 400 ") && text.contains("this port speaks TLS"), "{text}");
+        assert!(text.contains("\r\nconnection: close\r\n") && text.contains("malformed_http"), "{text}");
+    }
+    others_are_served(&host, &authority.client(None)).await;
+}
+
+#[tokio::test]
+async fn events_come_over_tls_as_they_happen() {
+    let authority = Authority::new("events");
+    let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
+    let job = submit(&host, &crowded()).await;
+    let text = host.get(&format!("{}/events", path(&job))).await.text;
+    for event in ["event: queued", "event: running", "event: finished"] {
+        assert!(text.contains(event), "{text}");
+    }
+}
+
+#[tokio::test]
+async fn a_client_that_says_goodbye_and_one_that_just_goes_have_hung_up() {
+    static RUNNING: AtomicUsize = AtomicUsize::new(0);
+    let authority = Authority::new("goodbye");
+    let settings = ServerSettings { threads: 1, ..ServerSettings::default() };
+    let host = secure_host(&authority, settings, endless!(RUNNING)).await;
+    let client = authority.client(None);
+    for polite in [true, false] {
+        let mut stream = raw(&host, &client, &raw_plan(&scene(60_000))).await;
+        wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
+        if polite {
+            stream.shutdown().await.unwrap();
+            wait_until(|| RUNNING.load(Ordering::SeqCst) == 0).await;
+            assert_eq!(read_to_end(&mut stream).await, "");
+        }
+        drop(stream);
+        wait_until(|| RUNNING.load(Ordering::SeqCst) == 0).await;
+    }
+}
+
+#[tokio::test]
+async fn a_service_drains_over_tls_as_it_does_without() {
+    static RUNNING: AtomicUsize = AtomicUsize::new(0);
+    let authority = Authority::new("drain");
+    let settings = ServerSettings { threads: 1, drain: 2 * PATIENCE, ..ServerSettings::default() };
+    let host = secure_host(&authority, settings, endless!(RUNNING)).await;
+    let client = authority.client(None);
+    let mut running = raw(&host, &client, &raw_plan(&scene(1000))).await;
+    wait_until(|| RUNNING.load(Ordering::SeqCst) == 1).await;
+    let mut idle = rested(&host, &client).await;
+    let silent = connect(&host, &client).await.unwrap();
+    let mute = host.raw("");
+    host.ask_to_stop();
+    let text = read_to_end(&mut running).await;
+    assert!(text.starts_with("HTTP/1.1 200 ") && text.contains("timed_out"), "{text}");
+    assert_eq!(read_to_end(&mut idle).await, "");
+    // The time for draining is longer than this waits.
+    host.stopped().await;
+    drop((silent, mute));
+}
+
+#[tokio::test]
+async fn a_connection_may_rest_longer_between_requests_than_a_head_may_take() {
+    let patience = Duration::from_millis(500);
+    let authority = Authority::new("rest");
+    let settings = ServerSettings { header_timeout: patience, ..ServerSettings::default() };
+    let host = secure_host(&authority, settings, Engine::default()).await;
+    let mut stream = rested(&host, &authority.client(None)).await;
+    tokio::time::sleep(patience * 3).await;
+    assert!(answers(&mut stream).await);
+}
