@@ -224,20 +224,46 @@ fn the_map_names_every_module() {
     }
 }
 
-#[test]
-fn every_test_that_is_named_is_there() {
+/// The words between backticks in the last column of the tables of a section, row by row.
+fn last_column<'a>(page: &'a str, section: &str) -> Vec<Vec<&'a str>> {
+    let text = page.split(&format!("\n## {section}")).nth(1).unwrap().split("\n## ").next().unwrap();
+    let rows = text.lines().filter(|line| line.starts_with("| ")).skip(2);
+    rows.map(|row| row.rsplit_once(" | ").unwrap().1.split('`').skip(1).step_by(2).collect()).collect()
+}
+
+/// All tests' text.
+fn tests() -> String {
     let mut files = Vec::new();
     for folder in ["src", "tests"] {
         collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut files);
     }
-    let all: String = files.iter().map(|path| fs::read_to_string(path).unwrap()).collect();
-    let page = page();
-    let absent = page.split("## What is absent").nth(1).unwrap().split("## ").next().unwrap();
-    let rows = absent.lines().filter(|line| line.starts_with("| "));
-    let quoted = rows.flat_map(|row| row.rsplit_once(" | ").unwrap().1.split('`').skip(1).step_by(2));
-    let tests: Vec<&str> = quoted.filter(|word| word.matches('_').count() > 2).collect();
-    assert!(tests.len() > 15, "{tests:?}");
-    for test in tests {
+    files.iter().map(|path| fs::read_to_string(path).unwrap()).collect()
+}
+
+#[test]
+fn every_test_that_is_named_is_there() {
+    let (all, page) = (tests(), page());
+    let absent = last_column(&page, "What is absent").concat();
+    let named: Vec<&str> = absent.into_iter().filter(|word| word.matches('_').count() > 2).collect();
+    assert!(named.len() > 15, "{named:?}");
+    for test in named {
         assert!(all.contains(&format!("fn {test}(")), "there is no test {test}");
+    }
+}
+
+#[test]
+fn every_threat_has_a_test_and_it_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (all, page) = (tests(), fs::read_to_string(root.join("SECURITY.md")).unwrap());
+    let rows = last_column(&page, "Who, what, which check, which test");
+    assert!(rows.len() > 20, "{rows:?}");
+    for row in rows {
+        assert!(!row.is_empty(), "a threat without a test in {page}");
+        for test in row {
+            // Some checks are scripts.
+            let there =
+                if test.contains('/') { root.join(test).is_file() } else { all.contains(&format!("fn {test}(")) };
+            assert!(there, "there is no test {test}");
+        }
     }
 }

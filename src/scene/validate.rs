@@ -185,7 +185,15 @@ fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults:
     match ids.get(id) {
         Some(&at) if objects[at].fixed => faults.add(Place::Target, Flaw::FixedTarget(id.to_owned())),
         Some(&at) => return Some(ObjectIndex::new(at)),
-        None if !unreadable => faults.add(Place::Target, Flaw::UnknownTarget(id.to_owned())),
+        None if !unreadable => {
+            // What can be no id is not repeated.
+            let length = id.chars().count();
+            let flaw = match length > MAX_ID_LENGTH {
+                true => Flaw::IdLength { length, max: MAX_ID_LENGTH },
+                false => Flaw::UnknownTarget(id.to_owned()),
+            };
+            faults.add(Place::Target, flaw);
+        }
         None => {}
     }
     None

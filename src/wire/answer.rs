@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 
 use super::finding;
 use super::glance::Glance;
-use super::problem::ErrorItem;
+use super::problem::WarningItem;
 use super::request::PlanRequest;
 use crate::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
 use crate::scene::{ObjectIndex, Scene};
@@ -60,7 +60,7 @@ pub struct AnswerBody {
         "pointer": "/objects/2",
         "detail": "overlaps 'plate-1' by 0.000400 m (tolerance 0.001 m)"
     }]))]
-    pub warnings: Vec<ErrorItem>,
+    pub warnings: Vec<WarningItem>,
     /// How long each phase took; differs from run to run.
     pub statistics: StatisticsBody,
 }
@@ -242,7 +242,7 @@ impl AnswerBody {
 }
 
 /// What is worth knowing: about the scene first, then about the answer. Pointers lead into the request.
-pub fn warnings(request: &PlanRequest, answer: &Answer) -> Vec<ErrorItem> {
+pub fn warnings(request: &PlanRequest, answer: &Answer) -> Vec<WarningItem> {
     let of_answer = answer.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
     request.warnings.iter().cloned().chain(of_answer).collect()
 }

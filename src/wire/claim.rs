@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use super::code::ErrorCode;
 use super::problem::Problem;
 use super::reader::{Faults, Names, Node, parse};
 use super::request::{PlanRequest, REQUEST, RequestLimits, request};
@@ -119,7 +120,7 @@ fn target(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Op
     let stated = node.text(faults)?;
     if let Some(wanted) = scene_target.filter(|wanted| *wanted != stated) {
         let detail = format_args!("the plan is for '{stated}', the scene's target is '{wanted}'");
-        faults.add("target_mismatch", node.path(), detail);
+        faults.add(ErrorCode::TargetMismatch, node.path(), detail);
     }
     Some(())
 }
@@ -147,7 +148,7 @@ fn coordinate(node: Node<'_>, faults: &mut Faults) -> Option<f64> {
     let value = node.number(faults)?;
     let (min, max) = COORDINATE_RANGE;
     if !(min..=max).contains(&value) {
-        faults.add("out_of_range", node.path(), format_args!("{value} is not between {min} and {max}"));
+        faults.add(ErrorCode::OutOfRange, node.path(), format_args!("{value} is not between {min} and {max}"));
     }
     Some(value)
 }

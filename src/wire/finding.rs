@@ -1,21 +1,19 @@
 //! What the scene's own checks found, as faults with a pointer.
 
-use super::problem::ErrorItem;
+use super::code::ErrorCode;
+use super::problem::WarningItem;
 use super::reader::{Faults, Path};
 use crate::plan::{Cause, Warning};
 use crate::scene::{Finding, Flaw, Place, Scene};
 
-/// The code of a list of objects that is too long.
-pub(super) const TOO_MANY_OBJECTS: &str = "too_many_objects";
-
 /// A finding as a warning; `scene` is where the scene stands in the body.
-pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> ErrorItem {
+pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> WarningItem {
     let pointer = at(scene, finding.place, &mut |path| path.to_string());
-    ErrorItem { code: code(&finding.flaw), pointer, detail: finding.flaw.to_string() }
+    WarningItem { code: code(&finding.flaw).to_string(), pointer, detail: finding.flaw.to_string() }
 }
 
 /// A warning about an answer. Its scene is the whole request.
-pub(super) fn warning(scene: &Scene, warning: &Warning) -> ErrorItem {
+pub(super) fn warning(scene: &Scene, warning: &Warning) -> WarningItem {
     let pointer = match warning.cause() {
         Cause::Setting(name) => format!("/settings/{name}"),
         Cause::Request => String::new(),
@@ -24,7 +22,7 @@ pub(super) fn warning(scene: &Scene, warning: &Warning) -> ErrorItem {
             at.map_or_else(|| "/objects".to_owned(), |at| format!("/objects/{at}"))
         }
     };
-    ErrorItem { code: warning.code(), pointer, detail: warning.to_string() }
+    WarningItem { code: warning.code().to_owned(), pointer, detail: warning.to_string() }
 }
 
 /// A finding as a fault.
@@ -46,19 +44,19 @@ fn at<T>(scene: &Path<'_>, place: Place, arrive: &mut dyn FnMut(&Path<'_>) -> T)
     }
 }
 
-fn code(flaw: &Flaw) -> &'static str {
+fn code(flaw: &Flaw) -> ErrorCode {
     match flaw {
-        Flaw::OutOfRange { .. } => "out_of_range",
-        Flaw::NotWhole(_) => "not_whole",
-        Flaw::EmptyRectangle { .. } => "empty_rectangle",
-        Flaw::IdLength { .. } => "id_length",
-        Flaw::DuplicateId { .. } => "duplicate_id",
-        Flaw::TooManyObjects { .. } => TOO_MANY_OBJECTS,
-        Flaw::UnknownTarget(_) => "unknown_target",
-        Flaw::FixedTarget(_) => "fixed_target",
-        Flaw::OffTable { .. } => "off_table",
-        Flaw::Overlap { .. } => "overlap",
-        Flaw::TooManyNeighbours { .. } => "too_many_neighbours",
-        Flaw::FingersOverlap { .. } => "fingers_overlap",
+        Flaw::OutOfRange { .. } => ErrorCode::OutOfRange,
+        Flaw::NotWhole(_) => ErrorCode::NotWhole,
+        Flaw::EmptyRectangle { .. } => ErrorCode::EmptyRectangle,
+        Flaw::IdLength { .. } => ErrorCode::IdLength,
+        Flaw::DuplicateId { .. } => ErrorCode::DuplicateId,
+        Flaw::TooManyObjects { .. } => ErrorCode::TooManyObjects,
+        Flaw::UnknownTarget(_) => ErrorCode::UnknownTarget,
+        Flaw::FixedTarget(_) => ErrorCode::FixedTarget,
+        Flaw::OffTable { .. } => ErrorCode::OffTable,
+        Flaw::Overlap { .. } => ErrorCode::Overlap,
+        Flaw::TooManyNeighbours { .. } => ErrorCode::TooManyNeighbours,
+        Flaw::FingersOverlap { .. } => ErrorCode::FingersOverlap,
     }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::code::ErrorCode;
 use super::problem::Problem;
 use super::reader::{Faults, Names, Node, parse};
 use super::request::{PlanRequest, RequestLimits, request};
@@ -66,12 +67,12 @@ fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<
         let count = node.length();
         if count > MAX_BATCH {
             let detail = format_args!("a batch has at most {MAX_BATCH} scenes, this one has {count}");
-            faults.add("too_many_scenes", node.path(), detail);
+            faults.add(ErrorCode::TooManyScenes, node.path(), detail);
             return None;
         }
         let jobs = node.list(faults, |node, faults| Some(job(node, limits, faults)))?;
         if jobs.is_empty() {
-            faults.add("too_few_scenes", node.path(), format_args!("a batch has at least one scene"));
+            faults.add(ErrorCode::TooFewScenes, node.path(), format_args!("a batch has at least one scene"));
         }
         jobs.into_iter().collect()
     })
@@ -92,7 +93,7 @@ fn callback_url(node: Node<'_>, faults: &mut Faults) -> Option<String> {
     let length = text.chars().count();
     if length > MAX_CALLBACK_URL_LENGTH {
         let detail = format_args!("a URL has at most {MAX_CALLBACK_URL_LENGTH} characters, this one has {length}");
-        faults.add("url_length", node.path(), detail);
+        faults.add(ErrorCode::UrlLength, node.path(), detail);
         return None;
     }
     Some(text)

@@ -5,6 +5,7 @@
 
 mod answer;
 mod claim;
+mod code;
 mod finding;
 mod glance;
 mod job;
@@ -25,13 +26,14 @@ pub use answer::{
     ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord, warnings,
 };
 pub use claim::{VerifyRequest, read_plan, read_verify};
+pub use code::ErrorCode;
 pub use glance::Glance;
 pub use job::{
     BatchBody, IncumbentBody, JobBody, JobEventBody, JobEventWord, JobListBody, JobSceneBody, JobStateWord, JobsBody,
 };
 pub use job_request::{JobRequest, MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
-pub use problem::{ErrorItem, Problem, ProblemKind};
+pub use problem::{ErrorItem, Problem, ProblemKind, WarningItem};
 pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
 pub use scene::{
     GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,

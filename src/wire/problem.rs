@@ -6,17 +6,33 @@ use core::time::Duration;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// One thing that is wrong with a request, or (in `warnings`) worth knowing about it.
+use super::code::ErrorCode;
+
+/// One thing that is wrong with a request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct ErrorItem {
     /// The kind of fault, a word for programs.
-    #[schema(example = "out_of_range")]
-    pub code: &'static str,
+    pub code: ErrorCode,
     /// The place in the request body, a JSON pointer (RFC 6901); empty for the body as a whole.
     #[schema(example = "/objects/3/radius")]
     pub pointer: String,
     /// One sentence for people.
     #[schema(example = "-0.075 is not between 0.000001 and 1000")]
+    pub detail: String,
+}
+
+/// One thing that is worth knowing about a scene or an answer, in the same form as a fault.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct WarningItem {
+    /// The kind of warning, a word for programs. Later versions may add some, and an answer is one all the same: a client
+    /// passes over a word that it does not know.
+    #[schema(example = "overlap")]
+    pub code: String,
+    /// The place in the request body, a JSON pointer (RFC 6901); empty for the body as a whole.
+    #[schema(example = "/objects/2")]
+    pub pointer: String,
+    /// One sentence for people.
+    #[schema(example = "overlaps 'plate-1' by 0.000400 m (tolerance 0.001 m)")]
     pub detail: String,
 }
 
@@ -173,7 +189,7 @@ impl Problem {
 
     /// A scene that is in order, but too dense to be planned for within the limits on memory.
     pub fn too_dense(detail: String) -> Self {
-        Self::invalid(vec![ErrorItem { code: "too_dense", pointer: "/objects".to_owned(), detail }])
+        Self::invalid(vec![ErrorItem { code: ErrorCode::TooDense, pointer: "/objects".to_owned(), detail }])
     }
 
     /// The same problem with these faults.

@@ -4,6 +4,7 @@ use core::fmt;
 
 use serde_json::{Map, Value};
 
+use super::code::ErrorCode;
 use super::problem::{ErrorItem, Problem, ProblemKind};
 
 /// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
@@ -44,7 +45,7 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    pub(super) fn add(&mut self, code: &'static str, path: &Path<'_>, detail: fmt::Arguments<'_>) {
+    pub(super) fn add(&mut self, code: ErrorCode, path: &Path<'_>, detail: fmt::Arguments<'_>) {
         if self.items.len() < MAX_FAULTS {
             self.items.push(ErrorItem { code, pointer: path.to_string(), detail: detail.to_string() });
         }
@@ -73,7 +74,7 @@ pub(super) fn parse(body: &[u8]) -> Result<Value, Problem> {
             // The reader's message ends with the line and the column.
             format!("the body is not JSON: {error}")
         };
-        let item = ErrorItem { code: "malformed_json", pointer: String::new(), detail: detail.clone() };
+        let item = ErrorItem { code: ErrorCode::MalformedJson, pointer: String::new(), detail: detail.clone() };
         Problem::new(ProblemKind::MalformedJson, detail).with_errors(vec![item])
     })
 }
@@ -103,7 +104,7 @@ impl<'a> Node<'a> {
             Value::Array(_) => "an array",
             Value::Object(_) => "an object",
         };
-        faults.add("wrong_type", self.path, format_args!("expected {expected}, found {found}"));
+        faults.add(ErrorCode::WrongType, self.path, format_args!("expected {expected}, found {found}"));
         None
     }
 
@@ -113,9 +114,9 @@ impl<'a> Node<'a> {
         for name in map.keys().filter(|name| !names.known.contains(&name.as_str())).take(MAX_FAULTS) {
             let path = self.path.field(name);
             if names.reserved.contains(&name.as_str()) {
-                faults.add("unknown_field", &path, format_args!("this name is reserved for a later version"));
+                faults.add(ErrorCode::UnknownField, &path, format_args!("this name is reserved for a later version"));
             } else {
-                faults.add("unknown_field", &path, format_args!("known here: {}", names.known.join(", ")));
+                faults.add(ErrorCode::UnknownField, &path, format_args!("known here: {}", names.known.join(", ")));
             }
         }
         Some(Fields { map, path: self.path })
@@ -133,7 +134,7 @@ impl<'a> Node<'a> {
             // Only a literal beyond the range of a double has no value.
             let literal: String = number.as_str().chars().take(40).collect();
             faults.add(
-                "out_of_range",
+                ErrorCode::OutOfRange,
                 self.path,
                 format_args!("{literal} is further from 0 than any number here may be"),
             );
@@ -145,13 +146,13 @@ impl<'a> Node<'a> {
     pub(super) fn integer(&self, (min, max): (i64, i64), faults: &mut Faults) -> Option<i64> {
         let value = self.number(faults)?;
         if value.fract() != 0.0 {
-            faults.add("not_whole", self.path, format_args!("{value} is not a whole number"));
+            faults.add(ErrorCode::NotWhole, self.path, format_args!("{value} is not a whole number"));
             return None;
         }
         #[expect(clippy::cast_possible_truncation, reason = "a whole number; `as` saturates")]
         let integer = value as i64;
         if !(min..=max).contains(&integer) {
-            faults.add("out_of_range", self.path, format_args!("{value} is not between {min} and {max}"));
+            faults.add(ErrorCode::OutOfRange, self.path, format_args!("{value} is not between {min} and {max}"));
             return None;
         }
         Some(integer)
@@ -177,7 +178,7 @@ impl<'a> Node<'a> {
         let choice = choices.iter().find(|(word, _)| word == text).map(|(_, value)| *value);
         if choice.is_none() {
             let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
-            faults.add("unknown_value", self.path, format_args!("'{text}' is none of: {}", words.join(", ")));
+            faults.add(ErrorCode::UnknownValue, self.path, format_args!("'{text}' is none of: {}", words.join(", ")));
         }
         choice
     }
@@ -239,7 +240,7 @@ impl Fields<'_> {
 
     /// Note that a field ought to be there.
     pub(super) fn missing(&self, name: &'static str, faults: &mut Faults) {
-        faults.add("missing", &self.path.field(name), format_args!("the field '{name}' is required"));
+        faults.add(ErrorCode::Missing, &self.path.field(name), format_args!("the field '{name}' is required"));
     }
 
     /// A field that may be absent or null, and means `default` then. `None` only where it is there and unreadable.

@@ -2,8 +2,9 @@
 
 use core::time::Duration;
 
+use super::code::ErrorCode;
 use super::finding;
-use super::problem::{ErrorItem, Problem};
+use super::problem::{Problem, WarningItem};
 use super::reader::{Faults, Names, Node, parse};
 use super::settings::StatedSettings;
 use crate::paper::DEFAULT_RESOLUTION;
@@ -51,7 +52,7 @@ pub struct PlanRequest {
     /// The time for waiting and planning.
     pub time_limit: Duration,
     /// What is worth knowing about the scene.
-    pub warnings: Vec<ErrorItem>,
+    pub warnings: Vec<WarningItem>,
 }
 
 impl AsRef<PlanRequest> for PlanRequest {
@@ -119,7 +120,7 @@ fn scene_id(node: Node<'_>, faults: &mut Faults) -> Option<Option<String>> {
     let length = text.chars().count();
     if length > MAX_SCENE_ID_LENGTH {
         let detail = format_args!("a scene id has at most {MAX_SCENE_ID_LENGTH} characters, this one has {length}");
-        faults.add("id_length", node.path(), detail);
+        faults.add(ErrorCode::IdLength, node.path(), detail);
         return None;
     }
     Some(Some(text))
@@ -162,7 +163,7 @@ fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Optio
     let (count, max) = (node.length(), limits.scene.max_objects);
     if count > max {
         // Not worth the work of reading them.
-        faults.add(finding::TOO_MANY_OBJECTS, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
+        faults.add(ErrorCode::TooManyObjects, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
         return None;
     }
     node.list(faults, object)

@@ -2,6 +2,7 @@
 
 use core::time::Duration;
 
+use super::code::ErrorCode;
 use super::reader::{Faults, Names, Node};
 use super::request::RequestLimits;
 use crate::paper::Raster;
@@ -73,7 +74,7 @@ impl StatedSettings {
             Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
             Err(too_fine) => {
                 let settings = request.path().field("settings");
-                faults.add("too_fine", &settings.field("placement"), format_args!("{too_fine}"));
+                faults.add(ErrorCode::TooFine, &settings.field("placement"), format_args!("{too_fine}"));
                 None
             }
         }

@@ -44,6 +44,10 @@ fn read(body: &str) -> Result<PlanRequest, Problem> {
     read_scene(body.as_bytes(), &RequestLimits::default())
 }
 
-fn places(problem: &Problem) -> Vec<(&str, &str)> {
-    problem.errors().iter().map(|error| (error.code, error.pointer.as_str())).collect()
+/// Assert that these are the codes and the pointers of the problem's faults.
+#[track_caller]
+fn has_faults(problem: &Problem, expected: &[(&str, &str)]) {
+    let faults = problem.errors().iter().map(|error| (error.code.to_string(), error.pointer.clone()));
+    let expected: Vec<_> = expected.iter().map(|&(code, pointer)| (code.to_owned(), pointer.to_owned())).collect();
+    assert_eq!(faults.collect::<Vec<_>>(), expected, "{problem}");
 }

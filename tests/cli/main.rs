@@ -4,10 +4,13 @@
 
 mod client_scenes;
 mod commands;
+mod controllers;
+mod errors;
 mod experiments;
 #[path = "../service/hard.rs"]
 mod hard;
 mod keys;
+mod log;
 mod readme;
 mod scenes;
 mod service;

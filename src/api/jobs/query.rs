@@ -6,7 +6,7 @@ use core::ops::RangeInclusive;
 use axum::extract::{FromRequestParts, Query};
 use axum::http::request::Parts;
 
-use crate::wire::{ErrorItem, Problem, ProblemKind};
+use crate::wire::{ErrorCode, ErrorItem, Problem, ProblemKind};
 
 /// The parameters of a request, in order.
 pub(in crate::api) struct Parameters(Vec<(String, String)>);
@@ -28,10 +28,13 @@ impl Parameters {
     pub(super) fn only(self, names: &[&str]) -> Result<Self, Problem> {
         for (at, (name, _)) in self.0.iter().enumerate() {
             if !names.contains(&name.as_str()) {
-                return Err(invalid("unknown_parameter", format_args!("'{name}'; known here: {}", names.join(", "))));
+                return Err(invalid(
+                    ErrorCode::UnknownParameter,
+                    format_args!("'{name}'; known here: {}", names.join(", ")),
+                ));
             }
             if self.0[..at].iter().any(|(other, _)| other == name) {
-                return Err(invalid("repeated_parameter", format_args!("'{name}' is there twice")));
+                return Err(invalid(ErrorCode::RepeatedParameter, format_args!("'{name}' is there twice")));
             }
         }
         Ok(self)
@@ -50,7 +53,7 @@ impl Parameters {
         let Some((_, text)) = self.0.iter().find(|(other, _)| other == name) else { return Ok(None) };
         read(text)
             .map(Some)
-            .ok_or_else(|| invalid("out_of_range", format_args!("the parameter '{name}' is to be {expected}")))
+            .ok_or_else(|| invalid(ErrorCode::OutOfRange, format_args!("the parameter '{name}' is to be {expected}")))
     }
 
     /// A whole number.
@@ -63,6 +66,6 @@ impl Parameters {
     }
 }
 
-fn invalid(code: &'static str, detail: core::fmt::Arguments<'_>) -> Problem {
+fn invalid(code: ErrorCode, detail: core::fmt::Arguments<'_>) -> Problem {
     Problem::invalid(vec![ErrorItem { code, pointer: String::new(), detail: detail.to_string() }])
 }

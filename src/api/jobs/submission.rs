@@ -5,7 +5,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::jobs::{CallbackAllow, JobId, NewJob, Owner};
-use crate::wire::{ErrorItem, JobRequest, Problem, SceneBody};
+use crate::wire::{ErrorCode, ErrorItem, JobRequest, Problem, SceneBody};
 
 const IDEMPOTENCY_KEY: HeaderName = HeaderName::from_static("idempotency-key");
 /// The longest idempotency key, characters: room for any id, none for a document.
@@ -23,7 +23,7 @@ pub(super) fn key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
         (Some(text), None) => Ok(Some(text.to_owned())),
         _ => {
             let detail = format!("an Idempotency-Key is one value of 1 to {MAX_KEY_LENGTH} printable ASCII characters");
-            Err(Problem::invalid(vec![ErrorItem { code: "idempotency_key", pointer: String::new(), detail }]))
+            Err(Problem::invalid(vec![ErrorItem { code: ErrorCode::IdempotencyKey, pointer: String::new(), detail }]))
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use url::Url;
 
+use crate::wire::ErrorCode;
+
 /// The longest URL of a callback. Every receiver and every proxy before it takes that much.
 const MAX_URL_BYTES: usize = 2_000;
 
@@ -40,11 +42,11 @@ pub enum CallbackFault {
 
 impl CallbackFault {
     /// As it is written everywhere.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> ErrorCode {
         match self {
-            Self::TooLong => "out_of_range",
-            Self::NotAUrl(_) | Self::Scheme | Self::UserInfo | Self::Fragment => "bad_callback_url",
-            Self::Off | Self::NotListed(_) | Self::NotPublic(_) => "callback_not_allowed",
+            Self::TooLong => ErrorCode::OutOfRange,
+            Self::NotAUrl(_) | Self::Scheme | Self::UserInfo | Self::Fragment => ErrorCode::BadCallbackUrl,
+            Self::Off | Self::NotListed(_) | Self::NotPublic(_) => ErrorCode::CallbackNotAllowed,
         }
     }
 }
@@ -98,15 +100,19 @@ mod tests {
         let letters = format!("http://erp.example.com/{}", "é".repeat(MAX_URL_BYTES / 3));
         let long = format!("http://erp.example.com/{}", "x".repeat(MAX_URL_BYTES));
         let table = [
-            (long.as_str(), CallbackFault::TooLong, "out_of_range"),
-            (letters.as_str(), CallbackFault::TooLong, "out_of_range"),
-            ("erp.example.com", CallbackFault::NotAUrl(url::ParseError::RelativeUrlWithoutBase), "bad_callback_url"),
-            ("http://", CallbackFault::NotAUrl(url::ParseError::EmptyHost), "bad_callback_url"),
-            ("ftp://erp.example.com/", CallbackFault::Scheme, "bad_callback_url"),
-            ("file:///etc/passwd", CallbackFault::Scheme, "bad_callback_url"),
-            ("http://me@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
-            ("http://:word@erp.example.com/", CallbackFault::UserInfo, "bad_callback_url"),
-            ("http://erp.example.com/#top", CallbackFault::Fragment, "bad_callback_url"),
+            (long.as_str(), CallbackFault::TooLong, ErrorCode::OutOfRange),
+            (letters.as_str(), CallbackFault::TooLong, ErrorCode::OutOfRange),
+            (
+                "erp.example.com",
+                CallbackFault::NotAUrl(url::ParseError::RelativeUrlWithoutBase),
+                ErrorCode::BadCallbackUrl,
+            ),
+            ("http://", CallbackFault::NotAUrl(url::ParseError::EmptyHost), ErrorCode::BadCallbackUrl),
+            ("ftp://erp.example.com/", CallbackFault::Scheme, ErrorCode::BadCallbackUrl),
+            ("file:///etc/passwd", CallbackFault::Scheme, ErrorCode::BadCallbackUrl),
+            ("http://me@erp.example.com/", CallbackFault::UserInfo, ErrorCode::BadCallbackUrl),
+            ("http://:word@erp.example.com/", CallbackFault::UserInfo, ErrorCode::BadCallbackUrl),
+            ("http://erp.example.com/#top", CallbackFault::Fragment, ErrorCode::BadCallbackUrl),
         ];
         for (url, fault, code) in table {
             assert_eq!((CallbackUrl::parse(url).unwrap_err(), fault.code()), (fault, code), "{url}");
@@ -119,7 +125,7 @@ mod tests {
     fn what_the_list_forbids_has_one_code() {
         let host = "erp.example.com".to_owned();
         for fault in [CallbackFault::Off, CallbackFault::NotListed(host.clone()), CallbackFault::NotPublic(host)] {
-            assert_eq!(fault.code(), "callback_not_allowed");
+            assert_eq!(fault.code(), ErrorCode::CallbackNotAllowed);
         }
     }
 

@@ -1,0 +1,77 @@
+//! What can be wrong with a request, in one word each.
+
+use core::fmt;
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// The kinds of fault of a request. Two of them are warnings instead: an overlap within the tolerance, and fingers that
+/// overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(example = "out_of_range")]
+pub enum ErrorCode {
+    /// The body is not JSON.
+    MalformedJson,
+    /// A field that is required is absent.
+    Missing,
+    /// A field that is not known here.
+    UnknownField,
+    /// Another type of value was expected.
+    WrongType,
+    /// None of the words that may stand here.
+    UnknownValue,
+    /// Not a whole number.
+    NotWhole,
+    /// Too small, too large, or further from 0 than any number may be.
+    OutOfRange,
+    /// An id is empty or too long.
+    IdLength,
+    /// Two objects have one id.
+    DuplicateId,
+    /// A rectangle whose least is not below its greatest.
+    EmptyRectangle,
+    /// The middle of an object is not on the table.
+    OffTable,
+    /// Two objects overlap: past the tolerance a fault, within it a warning.
+    Overlap,
+    /// The fingers overlap each other. Only ever a warning.
+    FingersOverlap,
+    /// The target is no object of the scene.
+    UnknownTarget,
+    /// The target can't be moved.
+    FixedTarget,
+    /// More objects than a scene may have.
+    TooManyObjects,
+    /// More obstacles in reach of one grasp than there may be.
+    TooManyNeighbours,
+    /// The options of all objects together would not fit into memory.
+    TooDense,
+    /// The image of the table would have too many pixels.
+    TooFine,
+    /// The plan is for another target than the scene's.
+    TargetMismatch,
+    /// A batch without scenes.
+    TooFewScenes,
+    /// A batch with more scenes than it may have.
+    TooManyScenes,
+    /// The URL of a callback is too long.
+    UrlLength,
+    /// The URL of a callback is none that could be called.
+    BadCallbackUrl,
+    /// The operator has not listed the host of a callback.
+    CallbackNotAllowed,
+    /// The header `Idempotency-Key` is no key.
+    IdempotencyKey,
+    /// A parameter that is not known here.
+    UnknownParameter,
+    /// A parameter that is there twice.
+    RepeatedParameter,
+}
+
+impl fmt::Display for ErrorCode {
+    /// As it stands in the JSON.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}

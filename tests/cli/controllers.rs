@@ -1,0 +1,117 @@
+//! What the page for robot controllers shows, carried out.
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use crate::{answered, run, run_with_input};
+
+const PAGE: &str = include_str!("../../docs/robot-controllers.md");
+
+fn block(kind: &str) -> &'static str {
+    PAGE.split(&format!("```{kind}\n")).nth(1).unwrap().split("```").next().unwrap()
+}
+
+/// A cup and a plate on each side of it, 12 mm away, for the gripper with the page's margins.
+fn scene() -> Value {
+    let gripper: Value = serde_json::from_str(block("json margins")).unwrap();
+    let disc = |id: &str, x: f64, y: f64| json!({"id": id, "x": x, "y": y, "radius": 0.04});
+    json!({
+        "table": {"x_min": 0, "y_min": 0, "x_max": 1, "y_max": 0.8},
+        "gripper": gripper,
+        "objects": [
+            disc("cup", 0.5, 0.4),
+            disc("east", 0.592, 0.4), disc("north", 0.5, 0.492), disc("west", 0.408, 0.4), disc("south", 0.5, 0.308)
+        ],
+        "target": "cup"
+    })
+}
+
+fn planned(scene: &Value) -> Value {
+    serde_json::from_str(&answered(run_with_input(&["plan", "-"], &scene.to_string()))).unwrap()
+}
+
+#[test]
+fn every_path_that_is_named_is_one_of_the_interface() {
+    let document: Value = serde_json::from_str(include_str!("../../openapi/openapi.json")).unwrap();
+    for page in [PAGE, include_str!("../../docs/errors.md")] {
+        let paths: Vec<&str> = page
+            .match_indices("/v1/")
+            .map(|(at, _)| page[at..].split(|c: char| !(c.is_alphanumeric() || "/{}_".contains(c))).next().unwrap())
+            .collect();
+        assert!(!paths.is_empty());
+        for path in paths {
+            assert!(document["paths"][path].is_object(), "{path}");
+        }
+    }
+}
+
+#[test]
+fn frames_and_yaws_are_as_the_functions_say() {
+    let checks = r#"
+x, y, yaw = to_robot(0.3, 0.1, 0.2, 1.0, 2.0, math.pi / 2)
+assert math.isclose(x, 0.9) and math.isclose(y, 2.3) and math.isclose(yaw, 0.2 + math.pi / 2)
+for fingers in range(2, 13):
+    for wrist in (-6.0, -1.0, 0.0, 0.4, 3.1, 9.0):
+        for yaw in (0.0, 0.3, 6.2):
+            turned = nearest_yaw(yaw, wrist, fingers)
+            turns = (turned - yaw) * fingers / (2 * math.pi)
+            assert math.isclose(turns, round(turns), abs_tol=1e-9)
+            assert abs(turned - wrist) <= math.pi / fingers + 1e-9
+"#;
+    let output = Command::new("python3").args(["-c", &format!("{}{checks}", block("python"))]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn the_margins_are_the_sums_and_every_step_keeps_them() {
+    let gripper: Value = serde_json::from_str(block("json margins")).unwrap();
+    let field = |name: &str| gripper[name].as_f64().unwrap();
+    let (place, radius, robot, yaw, thickness) = (0.0015, 0.001, 0.0005, 0.02, 0.008);
+    assert!((field("margin") - (robot + place + 2.0 * radius)).abs() < 1e-12);
+    assert!(field("clearance") >= thickness + robot + place + radius && field("yaw_tolerance") >= yaw);
+
+    let answer = planned(&scene());
+    let steps = answer["relocations"].as_array().unwrap();
+    assert!(!steps.is_empty(), "{answer}");
+    let slack = |grasp: &Value| grasp["slack"].as_f64().unwrap();
+    assert!(slack(&answer["target_grasp"]) >= field("yaw_tolerance"));
+    for step in steps {
+        assert!(step["gap"].as_f64().unwrap() >= field("margin"), "{step}");
+        assert!(["grasp", "release"].iter().all(|part| slack(&step[part]) >= field("yaw_tolerance")), "{step}");
+    }
+}
+
+#[test]
+fn one_move_at_a_time_comes_to_an_end_though_each_is_a_little_off() {
+    let mut scene = scene();
+    let mut costs = Vec::new();
+    loop {
+        let answer = planned(&scene);
+        costs.push(answer["cost"].as_u64().unwrap());
+        if answer["verdict"] == "graspable" {
+            break;
+        }
+        assert_eq!(answer["verdict"], "relocate");
+        let step = &answer["relocations"][0];
+        let objects = scene["objects"].as_array_mut().unwrap();
+        // What the camera sees next: the object near where it was put, and everything a little elsewhere.
+        for (n, object) in objects.iter_mut().enumerate() {
+            let moved = object["id"] == step["object"];
+            for axis in ["x", "y"] {
+                let was = if moved { &step["to"][axis] } else { &object[axis] }.as_f64().unwrap();
+                let drift = if (n + costs.len()).is_multiple_of(2) { 0.0015 } else { -0.0015 };
+                object[axis] = json!(was + drift);
+            }
+        }
+    }
+    assert_eq!(costs, [2, 1, 0]);
+}
+
+#[test]
+fn a_request_is_as_large_as_is_said() {
+    let (_, rest) = PAGE.split_once("`singulate generate ").unwrap();
+    let arguments: Vec<&str> = rest.split(" \\|").next().unwrap().split(' ').collect();
+    let length = answered(run(&[&["generate"][..], &arguments].concat())).len();
+    assert!((4_500..5_500).contains(&length), "{length}");
+}
