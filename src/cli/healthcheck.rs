@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// The arguments of `healthcheck`.
 #[derive(Debug, Args)]
 pub(super) struct Healthcheck {
-    /// What to ask; `/readyz` of the place where `serve` would listen where nothing is said
+    /// What to ask, a whole address such as http://127.0.0.1:8080/readyz; that of the place where `serve` would listen where nothing is said
     #[arg(long)]
     url: Option<String>,
 }
