@@ -83,39 +83,40 @@ pub(super) async fn guard(
 }
 
 /// Why somebody is not let in.
-enum Refused {
+enum NotAdmitted {
     NoKey,
     WrongKey,
     Scope(&'static [Scope]),
     Rate(Duration),
 }
 
-fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, Refused> {
-    let key = keys.find(presented(headers)?).ok_or(Refused::WrongKey)?;
+fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, NotAdmitted> {
+    let key = keys.find(presented(headers)?).ok_or(NotAdmitted::WrongKey)?;
     edge::note_key(key.name());
     // What a key may not do counts too, or it could be tried for ever.
-    key.spend(Instant::now()).map_err(Refused::Rate)?;
+    key.spend(Instant::now()).map_err(NotAdmitted::Rate)?;
     match need {
-        Need::OneOf(scopes) if !key.is_for(scopes) => Err(Refused::Scope(scopes)),
+        Need::OneOf(scopes) if !key.is_for(scopes) => Err(NotAdmitted::Scope(scopes)),
         _ => Ok(Caller { owner: Owner::named(key.name()), key: Some(key) }),
     }
 }
 
 /// The text that is to be a key.
-fn presented(headers: &HeaderMap) -> Result<&[u8], Refused> {
+fn presented(headers: &HeaderMap) -> Result<&[u8], NotAdmitted> {
     let mut fields = headers.get_all(header::AUTHORIZATION).iter();
-    let Some(field) = fields.next() else { return Err(Refused::NoKey) };
+    let Some(field) = fields.next() else { return Err(NotAdmitted::NoKey) };
     if fields.next().is_some() {
-        return Err(Refused::WrongKey);
+        return Err(NotAdmitted::WrongKey);
     }
     let mut parts = field.as_bytes().splitn(2, |byte| *byte == b' ');
     if !parts.next().unwrap_or_default().eq_ignore_ascii_case(b"bearer") {
-        return Err(Refused::NoKey);
+        return Err(NotAdmitted::NoKey);
     }
-    Ok(parts.next().unwrap_or_default().trim_ascii())
+    // No text is no key, whatever a keys file says of its digest.
+    Some(parts.next().unwrap_or_default().trim_ascii()).filter(|key| !key.is_empty()).ok_or(NotAdmitted::WrongKey)
 }
 
-impl Refused {
+impl NotAdmitted {
     fn refusal(&self) -> Refusal {
         match self {
             Self::NoKey | Self::WrongKey => Refusal::Unauthorized,
@@ -154,7 +155,7 @@ impl Refused {
     }
 }
 
-impl IntoResponse for Refused {
+impl IntoResponse for NotAdmitted {
     fn into_response(self) -> Response {
         let mut response = self.problem().into_response();
         if let Some(challenge) = self.challenge().and_then(|text| HeaderValue::try_from(text).ok()) {

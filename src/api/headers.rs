@@ -26,7 +26,7 @@ pub(super) async fn add(request: Request<Body>, next: Next) -> Response {
     let path = request.uri().path();
     let page = path.starts_with("/docs/");
     // What a key opens is not for whoever shares a cache with its holder.
-    let private = path.starts_with("/v1/") || path == "/metrics";
+    let private = path.starts_with("/v1/") || ["/metrics", "/version"].contains(&path);
     let mut response = next.run(request).await;
     let headers = response.headers_mut();
     for (name, value) in OF_DATA {

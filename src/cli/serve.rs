@@ -51,7 +51,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     }
     tracing::info!(%listen, threads = config.server.threads, "serving");
     output::print(&greeting(listen, &config.server))?;
-    api::run(listener, config.server, shutdown).await.map_err(broken)
+    api::run(listener, config.server, shutdown).await.map_err(|error| Failure::Broken(error.to_string()))
 }
 
 /// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers. Asked a second time, it ends at

@@ -1,5 +1,9 @@
 //! Every setting, each once.
 
+use core::time::Duration;
+use std::path::PathBuf;
+
+use super::Config;
 use super::setting::{NeededBy, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
@@ -8,6 +12,21 @@ use crate::telemetry::LogFormat;
 const MAX_COUNT: u64 = 1_000_000;
 /// 1 GB.
 const MAX_BYTES: u64 = 1_000_000_000;
+
+/// A file that the service reads.
+const fn file(name: &'static str, help: &'static str, field: fn(&mut Config) -> &mut Option<PathBuf>) -> Setting {
+    Setting { name, needed_by: NeededBy::Service, placeholder: "FILE", help, value: Value::File { field } }
+}
+
+/// A time in the service.
+const fn milliseconds(
+    name: &'static str,
+    least: u64,
+    help: &'static str,
+    field: fn(&mut Config) -> &mut Duration,
+) -> Setting {
+    Setting { name, needed_by: NeededBy::Service, placeholder: "MS", help, value: Value::Milliseconds { least, field } }
+}
 
 /// Every setting.
 pub static SETTINGS: &[Setting] = &[
@@ -25,13 +44,11 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.listen.to_string(),
         },
     },
-    Setting {
-        name: "api_keys_file",
-        needed_by: NeededBy::Service,
-        placeholder: "FILE",
-        help: "The keys of those who may call, see `singulate key new`; read again when it changes",
-        value: Value::File { field: |config| &mut config.server.api_keys_file },
-    },
+    file(
+        "api_keys_file",
+        "The keys of those who may call, see `singulate key new`; read again when it changes",
+        |config| &mut config.server.api_keys_file,
+    ),
     Setting {
         name: "insecure",
         needed_by: NeededBy::Service,
@@ -52,27 +69,15 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.server.cors_origins.to_string(),
         },
     },
-    Setting {
-        name: "tls_cert",
-        needed_by: NeededBy::Service,
-        placeholder: "FILE",
-        help: "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
-        value: Value::File { field: |config| &mut config.server.tls.cert },
-    },
-    Setting {
-        name: "tls_key",
-        needed_by: NeededBy::Service,
-        placeholder: "FILE",
-        help: "The certificate's private key, PEM",
-        value: Value::File { field: |config| &mut config.server.tls.key },
-    },
-    Setting {
-        name: "tls_client_ca",
-        needed_by: NeededBy::Service,
-        placeholder: "FILE",
-        help: "The authorities of clients, PEM; each then needs a certificate of theirs",
-        value: Value::File { field: |config| &mut config.server.tls.client_ca },
-    },
+    file(
+        "tls_cert",
+        "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
+        |config| &mut config.server.tls.cert,
+    ),
+    file("tls_key", "The certificate's private key, PEM", |config| &mut config.server.tls.key),
+    file("tls_client_ca", "The authorities of clients, PEM; each then needs a certificate of theirs", |config| {
+        &mut config.server.tls.client_ca
+    }),
     Setting {
         name: "threads",
         needed_by: NeededBy::Service,
@@ -101,27 +106,16 @@ pub static SETTINGS: &[Setting] = &[
         help: "The largest request body",
         value: Value::Whole { least: 1, most: MAX_BYTES, field: |config| &mut config.server.max_body_bytes },
     },
-    Setting {
-        name: "header_timeout_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "How long a request's head may take",
-        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.header_timeout },
-    },
-    Setting {
-        name: "body_timeout_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "How long a request's body may take",
-        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.body_timeout },
-    },
-    Setting {
-        name: "write_timeout_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "How long a client may take nothing of an answer that waits for it",
-        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.write_timeout },
-    },
+    milliseconds("header_timeout_ms", 1, "How long a request's head may take", |config| {
+        &mut config.server.header_timeout
+    }),
+    milliseconds("body_timeout_ms", 1, "How long a request's body may take", |config| &mut config.server.body_timeout),
+    milliseconds(
+        "write_timeout_ms",
+        1,
+        "How long a client may take nothing of an answer that waits for it",
+        |config| &mut config.server.write_timeout,
+    ),
     Setting {
         name: "jobs_url",
         needed_by: NeededBy::Service,
@@ -162,13 +156,9 @@ pub static SETTINGS: &[Setting] = &[
         // Below a second a busy machine would take jobs from workers that live.
         value: Value::Milliseconds { least: 1000, field: |config| &mut config.server.jobs.lease },
     },
-    Setting {
-        name: "job_ttl_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "How long a job may wait, and for how long an ended one is kept",
-        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.jobs.ttl },
-    },
+    milliseconds("job_ttl_ms", 1, "How long a job may wait, and for how long an ended one is kept", |config| {
+        &mut config.server.jobs.ttl
+    }),
     Setting {
         name: "max_waiting",
         needed_by: NeededBy::Service,
@@ -183,13 +173,9 @@ pub static SETTINGS: &[Setting] = &[
         help: "Clients that may listen to the events of jobs at a time",
         value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_streams },
     },
-    Setting {
-        name: "drain_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "How long what runs has to end once the service is asked to",
-        value: Value::Milliseconds { least: 1, field: |config| &mut config.server.drain },
-    },
+    milliseconds("drain_ms", 1, "How long what runs has to end once the service is asked to", |config| {
+        &mut config.server.drain
+    }),
     Setting {
         name: "callback_allow",
         needed_by: NeededBy::Service,

@@ -13,8 +13,8 @@ const RESERVED: &str = "anonymous";
 /// What each key of ours begins with, so that whoever finds one knows what it opens.
 pub(super) const PREFIX: &str = "sgl_";
 
-/// The SHA-256 of a key's text. Neither displayed nor compared in a time that depends on it.
-#[derive(Clone, Copy)]
+/// The SHA-256 of a key's text. Never displayed. What a caller presents is compared by [`ConstantTimeEq`] alone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct KeyDigest([u8; 32]);
 
 impl KeyDigest {
@@ -55,7 +55,7 @@ pub(super) struct KeyEntry {
 impl KeyEntry {
     /// True if it is the same key, as ever somebody's for the same.
     pub(super) fn is_same(&self, other: &Self) -> bool {
-        bool::from(self.digest.ct_eq(&other.digest)) && (&self.name, &self.scopes) == (&other.name, &other.scopes)
+        (&self.digest, &self.name, &self.scopes) == (&other.digest, &other.name, &other.scopes)
     }
 
     /// As the keys file has it.

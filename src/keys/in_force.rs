@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::time::Duration;
+use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
@@ -9,6 +10,7 @@ use std::time::Instant;
 
 use subtle::{ConditionallySelectable, ConstantTimeEq};
 use tokio::sync::Mutex;
+use tokio::task::spawn_blocking;
 use tokio_util::sync::CancellationToken;
 
 use super::entry::{KeyDigest, KeyEntry};
@@ -92,7 +94,11 @@ impl Keys {
         let mut files = self.files.lock().await;
         loop {
             files.changed().await;
-            if let Err(faults) = self.take_over(content(&files)) {
+            let text = content(&files).to_vec();
+            // A thousand keys take a while to read: not on a thread that serves.
+            let read = spawn_blocking(move || read(&text)).await;
+            let read = read.unwrap_or_else(|_| Err(vec!["the file could not be read".to_owned()]));
+            if let Err(faults) = self.take_over(read) {
                 tracing::error!(%faults, "the keys of before still hold");
             }
         }
@@ -103,17 +109,21 @@ impl Keys {
         Arc::clone(&self.in_force.read().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// From now on the keys in the text hold. What was used of a rate stays used.
-    fn take_over(&self, text: &[u8]) -> Result<(), KeysError> {
-        let entries = read(text).map_err(|faults| KeysError::faults(&self.path, &faults))?;
+    /// From now on the keys that were read hold. What was used of a rate stays used.
+    fn take_over(&self, read: Result<Vec<KeyEntry>, Vec<String>>) -> Result<(), KeysError> {
+        let entries = read.map_err(|faults| KeysError::faults(&self.path, &faults))?;
         let before = self.in_force();
-        let same = |entry: &KeyEntry| before.iter().find(|held| bool::from(held.entry.digest.ct_eq(&entry.digest)));
-        let after: Arc<[Arc<Held>]> = entries.into_iter().map(|entry| Held::after(same(&entry), entry)).collect();
+        let mut held: HashMap<_, _> = before.iter().map(|held| (held.entry.digest, held)).collect();
+        let after: Arc<[Arc<Held>]> =
+            entries.into_iter().map(|entry| Held::after(held.get(&entry.digest), entry)).collect();
         tracing::info!(path = %self.path.display(), keys = after.len(), "the keys were replaced");
         *self.in_force.write().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&after);
-        for held in before.iter().filter(|held| !after.iter().any(|other| held.entry.is_same(&other.entry))) {
-            held.gone.cancel();
+        for kept in after.iter() {
+            if held.get(&kept.entry.digest).is_some_and(|held| held.entry.is_same(&kept.entry)) {
+                held.remove(&kept.entry.digest);
+            }
         }
+        held.into_values().for_each(|held| held.gone.cancel());
         Ok(())
     }
 }
@@ -124,7 +134,7 @@ fn content(files: &WatchedFiles) -> &[u8] {
 
 impl Held {
     /// The entry in force, after the one that the same key had before.
-    fn after(before: Option<&Arc<Self>>, entry: KeyEntry) -> Arc<Self> {
+    fn after(before: Option<&&Arc<Self>>, entry: KeyEntry) -> Arc<Self> {
         let spent = before.map(|held| Arc::clone(&held.spent)).unwrap_or_default();
         let as_before = before.filter(|held| held.entry.is_same(&entry));
         let gone = as_before.map(|held| held.gone.clone()).unwrap_or_default();
@@ -199,7 +209,7 @@ mod tests {
         let new = fresh("n", "jobs", "1");
         let [kept, quick] = [stays.entry(), faster.entry().replace("rate = 1", "rate = 10")];
         let other = changes.entry().replace("plan", "jobs");
-        keys.take_over([kept, quick, other, new.entry()].concat().as_bytes()).unwrap();
+        keys.take_over(read([kept, quick, other, new.entry()].concat().as_bytes())).unwrap();
         assert!(find(&new).unwrap().spend(now).is_ok() && find(&goes).is_none());
         assert_eq!(find(&stays).unwrap().spend(now), Err(Duration::from_secs(1)));
         assert_eq!(find(&faster).unwrap().spend(now + Duration::from_millis(100)), Ok(()));
@@ -213,7 +223,7 @@ mod tests {
         let keys = keys("faulty", &[&first]);
         let before = keys.find(first.text().as_bytes()).unwrap();
         for faulty in [format!("{}[[key]]\n", second.entry()), String::new(), "[[key]".to_owned()] {
-            let error = keys.take_over(faulty.as_bytes()).unwrap_err();
+            let error = keys.take_over(read(faulty.as_bytes())).unwrap_err();
             assert!(error.0.iter().all(|fault| fault.contains("-faulty: ")), "{error}");
         }
         assert!(keys.find(second.text().as_bytes()).is_none() && keys.find(first.text().as_bytes()).is_some());

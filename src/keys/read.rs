@@ -1,5 +1,7 @@
 //! Reads a keys file. What is wrong is told with its line and never repeated: it may be a key in the wrong place.
 
+use std::collections::HashSet;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -10,6 +12,9 @@ use super::scope::Scopes;
 /// The most keys of a file. Each request is compared with all of them, which takes some 60 µs for so many.
 const MAX_KEYS: usize = 1000;
 
+/// The most faults that are told: whoever mends so many looks again.
+const MAX_FAULTS: usize = 20;
+
 const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
 
 /// The keys in the text.
@@ -18,13 +23,14 @@ const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
 /// Everything that is wrong with it, each fault with its line.
 pub(super) fn read(text: &[u8]) -> Result<Vec<KeyEntry>, Vec<String>> {
     let text = str::from_utf8(text).map_err(|_| vec!["not UTF-8".to_owned()])?;
-    let mut reader = Reader { text, faults: Vec::new() };
+    let mut reader = Reader { text, digests: HashSet::new(), faults: Vec::new() };
     let entries = reader.document();
     if reader.faults.is_empty() { Ok(entries) } else { Err(reader.faults) }
 }
 
 struct Reader<'a> {
     text: &'a str,
+    digests: HashSet<KeyDigest>,
     faults: Vec<String>,
 }
 
@@ -34,7 +40,9 @@ impl Reader<'_> {
     }
 
     fn fault(&mut self, at: usize, what: &str) {
-        self.faults.push(format!("line {}: {what}", self.line(at)));
+        if self.faults.len() < MAX_FAULTS {
+            self.faults.push(format!("line {}: {what}", self.line(at)));
+        }
     }
 
     fn document(&mut self) -> Vec<KeyEntry> {
@@ -49,16 +57,14 @@ impl Reader<'_> {
         let mut entries = Vec::new();
         for (name, value) in &table {
             match value.get_ref() {
+                DeValue::Array(keys) if name.get_ref() == "key" && keys.len() > MAX_KEYS => {
+                    self.fault(name.span().start, &format!("more than {MAX_KEYS} keys"));
+                }
                 DeValue::Array(keys) if name.get_ref() == "key" => {
-                    for (key, number) in keys.iter().zip(1..) {
-                        entries.extend(self.key(key, number, &entries));
-                    }
+                    entries = keys.iter().zip(1..).filter_map(|(key, number)| self.key(key, number)).collect();
                 }
                 _ => self.fault(name.span().start, "here are only entries that begin with [[key]]"),
             }
-        }
-        if entries.len() > MAX_KEYS {
-            self.faults.push(format!("more than {MAX_KEYS} keys"));
         }
         if entries.is_empty() && self.faults.is_empty() {
             self.faults.push("there is no key; make one with `singulate key new`".to_owned());
@@ -66,7 +72,7 @@ impl Reader<'_> {
         entries
     }
 
-    fn key(&mut self, key: &Spanned<DeValue<'_>>, number: usize, before: &[KeyEntry]) -> Option<KeyEntry> {
+    fn key(&mut self, key: &Spanned<DeValue<'_>>, number: usize) -> Option<KeyEntry> {
         let start = key.span().start;
         let Some(table) = key.get_ref().as_table() else {
             self.fault(start, &format!("key {number}: an entry begins with [[key]]"));
@@ -79,14 +85,7 @@ impl Reader<'_> {
             let name = value.as_str().unwrap_or_default();
             check_name(name).map(|()| name.to_owned())
         });
-        let digest = self.field(table, (start, number, "sha256"), |value| {
-            let digest = value.as_str().and_then(KeyDigest::read);
-            let digest = digest.ok_or("sha256 is 64 hexadecimal digits, the SHA-256 of the key's text")?;
-            if before.iter().any(|other| other.digest.text() == digest.text()) {
-                return Err("this sha256 stands in another entry too".to_owned());
-            }
-            Ok(digest)
-        });
+        let digest = self.digest(table, (start, number));
         let scopes = self.field(table, (start, number, "scopes"), |value| {
             let words = value.as_array().into_iter().flat_map(|words| words.iter());
             Scopes::read(words.map(|word| word.get_ref().as_str().unwrap_or_default()))
@@ -97,6 +96,23 @@ impl Reader<'_> {
             _ => Rate::new(f64::NAN),
         });
         Some(KeyEntry { name: name?, digest: digest?, scopes: scopes?, rate: rate? })
+    }
+
+    fn digest(&mut self, table: &DeTable<'_>, (start, number): (usize, usize)) -> Option<KeyDigest> {
+        let mut digests = core::mem::take(&mut self.digests);
+        let digest = self.field(table, (start, number, "sha256"), |value| {
+            let digest = value.as_str().and_then(KeyDigest::read);
+            let digest = digest.ok_or("sha256 is 64 hexadecimal digits, the SHA-256 of the key's text")?;
+            if digest == KeyDigest::of(b"") {
+                return Err("this is the sha256 of no text at all".to_owned());
+            }
+            if !digests.insert(digest) {
+                return Err("this sha256 stands in another entry too".to_owned());
+            }
+            Ok(digest)
+        });
+        self.digests = digests;
+        digest
     }
 
     /// A field of the entry that begins at `start`.
@@ -188,7 +204,9 @@ mod tests {
         }
         let many = |count: usize| (0..count).map(|at| entry("a", &at.to_string())).collect::<String>();
         assert_eq!(faults(&many(MAX_KEYS)), [""; 0]);
-        assert_eq!(faults(&many(MAX_KEYS + 1)), ["more than 1000 keys"]);
+        assert_eq!(faults(&many(MAX_KEYS + 1)), ["line 1: more than 1000 keys"]);
+        assert_eq!(faults(&"[[key]]\n".repeat(MAX_KEYS)).len(), MAX_FAULTS);
+        assert_eq!(faults(&entry("a", "")), ["line 3: key 1: this is the sha256 of no text at all"]);
         assert_eq!(read(b"\xff").err().unwrap(), ["not UTF-8"]);
     }
 }

@@ -92,6 +92,36 @@ fn operations() -> Vec<(String, String, Option<Vec<String>>)> {
     operations
 }
 
+/// What each operation needs of a key, as was agreed on.
+const NEEDS: [(&str, &str, &[&str]); 13] = [
+    ("POST", "/v1/plans", &["plan"]),
+    ("POST", "/v1/plans/verify", &["plan"]),
+    ("POST", "/v1/survey", &["plan"]),
+    ("POST", "/v1/knowledge", &["plan"]),
+    ("POST", "/v1/jobs", &["jobs"]),
+    ("GET", "/v1/jobs", &["read-only", "jobs"]),
+    ("POST", "/v1/jobs/batch", &["jobs"]),
+    ("GET", "/v1/jobs/{id}", &["read-only", "jobs"]),
+    ("DELETE", "/v1/jobs/{id}", &["jobs"]),
+    ("GET", "/v1/jobs/{id}/events", &["read-only", "jobs"]),
+    ("POST", "/v1/jobs/{id}/cancel", &["jobs"]),
+    ("GET", "/version", &[]),
+    ("GET", "/metrics", &["metrics"]),
+];
+
+#[test]
+fn the_document_says_what_was_agreed_on() {
+    let mut agreed = NEEDS.map(|(verb, path, scopes)| {
+        let path = path.replace("{id}", "00000000-0000-7000-8000-000000000000");
+        (verb.to_owned(), path, scopes.iter().map(|scope| (*scope).to_owned()).collect::<Vec<_>>())
+    });
+    agreed.sort();
+    let mut said: Vec<_> =
+        operations().into_iter().filter_map(|(verb, path, needs)| Some((verb, path, needs?))).collect();
+    said.sort();
+    assert_eq!(said, agreed);
+}
+
 #[tokio::test]
 async fn without_a_key_no_operation_is_reached_but_the_open_ones() {
     let guarded = Guarded::start("without", &[&key("a", "plan", OFTEN)]).await;
