@@ -96,7 +96,7 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     yield Case("four faults", one_move, moved, 0, server=proxy(Reset(), busy, hasty, CutOff()), check=four_faults)
     yield Case("nobody there", one_move, "", 1, "gave up: ", server=nobody)
     silent = problem(503, "overloaded", "Too busy")
-    yield Case("always busy", one_move, "", 1, "gave up: Too busy", proxy(then=silent), check=five_tries)
+    yield Case("always busy", one_move, "", 1, "gave up: Too busy", proxy(then=silent), check=patiently(4, 5))
     slow = scene("slow", time_limit_ms=1)
     yield Case("dripping", slow, "grasp cup at 0.500\n", 0, server=proxy(Drip(), then=free), check=counted(2))
     strange = answer("push_aside", relocations=[STEP], target_grasp=grasp)
@@ -111,6 +111,17 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     yield Case("forbidden", one_move, "", 6, "Not with this key", proxy(then=forbidden), check=counted(1))
     broken = problem(500, "internal", "A fault of ours")
     yield Case("fault of ours", one_move, "", 1, "A fault of ours", proxy(then=broken), check=counted(1))
+    between = proxy(*(Canned(status, "<html>") for status in (502, 504, 408)))
+    yield Case("a proxy between", one_move, moved, 0, server=between, check=patiently(3, 5))
+    elsewhere = Canned(307, "", {"location": "/elsewhere"})
+    yield Case("redirected", one_move, "", 1, "307", proxy(then=elsewhere), check=counted(1))
+    slash = f"http://{upstream[0]}:{upstream[1]}/"
+    yield Case("slash at the end", one_move, moved, 0, server=lambda: nullcontext(slash))
+    endless_limit = scene("endless-limit", time_limit_ms=1e19)
+    yield Case("a limit beyond all", endless_limit, "", 2, "/settings/time_limit_ms")
+    none = folder / "list.json"
+    none.write_text("[]")
+    yield Case("a list for a scene", none, "", 2, "wrong_type")
     late = answer("timed_out", needed=["a", "b"])
     told = "timed out: a, b would have to go\n"
     yield Case("timed out", one_move, told, 5, server=proxy(then=late), check=limits(None, 10_000))
@@ -139,9 +150,16 @@ def four_faults(requests: list[Request]) -> str | None:
     return counted(6)(requests)
 
 
-def five_tries(requests: list[Request]) -> str | None:
-    pauses = [later.at - earlier.at for earlier, later in zip(requests, requests[1:])]
-    return "without Retry-After it waits less than a second" if min(pauses, default=0) < 1 else counted(5)(requests)
+def patiently(waits: int, count: int) -> Callable[[list[Request]], str | None]:
+    """So many requests, of which the first are to be asked again."""
+
+    def check(requests: list[Request]) -> str | None:
+        pauses = [later.at - earlier.at for earlier, later in zip(requests, requests[1:])]
+        if min(pauses[:waits], default=0) < 1:
+            return "without Retry-After it waits less than a second"
+        return counted(count)(requests)
+
+    return check
 
 
 def limits(first: int | None, longer: int) -> Callable[[list[Request]], str | None]:

@@ -43,13 +43,15 @@ async fn run(path: &str) -> Result<ExitCode, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| Failure::Other(format!("{path}: {error}")))?;
     let scene = serde_json::from_str(&text).map_err(|error| Failure::Other(format!("{path}: {error}")))?;
     let url = std::env::var("SINGULATE_URL").unwrap_or_else(|_| "http://127.0.0.1:8080".to_owned());
-    let service = Service::new(&url, std::env::var("SINGULATE_KEY").ok())?;
+    let key = std::env::var("SINGULATE_KEY").ok().filter(|key| !key.is_empty());
+    let service = Service::new(&url, key)?;
     free(&service, scene).await
 }
 
 /// Ask, carry out the first relocation, ask again; 0 once the target is grasped.
 async fn free(service: &Service, mut scene: Value) -> Result<ExitCode, Failure> {
-    let limit_ms = scene.pointer("/settings/time_limit_ms").and_then(Value::as_u64).unwrap_or(DEFAULT_LIMIT_MS);
+    let named_ms = scene.pointer("/settings/time_limit_ms").and_then(Value::as_u64);
+    let limit_ms = named_ms.unwrap_or(DEFAULT_LIMIT_MS).min(LONGEST_LIMIT_MS);
     for _ in 0..ROUNDS {
         let mut answer = service.plan(&scene, limit_ms).await?;
         if let Answer::TimedOut(_) = answer {

@@ -4,6 +4,7 @@ use core::error::Error;
 use core::time::Duration;
 
 use reqwest::header::RETRY_AFTER;
+use reqwest::redirect::Policy;
 use reqwest::{Client, Response, StatusCode};
 use serde::Deserialize;
 use serde_json::Value;
@@ -57,7 +58,9 @@ impl Service {
     pub(crate) fn new(url: &str, key: Option<String>) -> Result<Self, Failure> {
         // The features of reqwest that are at hand leave the choice of cryptography to us. Only a second one is refused.
         let _ = rustls::crypto::ring::default_provider().install_default();
-        let client = Client::builder().build().map_err(|error| Failure::Other(innermost(&error)))?;
+        // The key is for this address alone.
+        let client =
+            Client::builder().redirect(Policy::none()).build().map_err(|error| Failure::Other(innermost(&error)))?;
         Ok(Self { client, url: format!("{}/v1/plans", url.trim_end_matches('/')), key })
     }
 
@@ -82,6 +85,9 @@ impl Service {
 
     async fn once(&self, scene: &Value, limit: Duration, pause: Duration) -> Result<Answer, Setback> {
         let lost = |error: reqwest::Error| {
+            if error.is_builder() || is_of_certificate(&error) {
+                return Setback::ForGood(Failure::Other(innermost(&error)));
+            }
             let what = if error.is_timeout() { "no answer in time".to_owned() } else { innermost(&error) };
             Setback::Again { reason: format!("connection lost: {what}"), pause }
         };
@@ -99,9 +105,11 @@ impl Service {
         let problem: Problem = serde_json::from_str(&body).unwrap_or_default();
         let title = problem.title.unwrap_or_else(|| format!("status {status}"));
         Err(match status {
-            StatusCode::TOO_MANY_REQUESTS | StatusCode::SERVICE_UNAVAILABLE => {
-                Setback::Again { reason: title, pause: wait }
-            }
+            StatusCode::REQUEST_TIMEOUT
+            | StatusCode::TOO_MANY_REQUESTS
+            | StatusCode::BAD_GATEWAY
+            | StatusCode::SERVICE_UNAVAILABLE
+            | StatusCode::GATEWAY_TIMEOUT => Setback::Again { reason: title, pause: wait },
             StatusCode::UNPROCESSABLE_ENTITY => Setback::ForGood(Failure::Invalid(problem.errors)),
             StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN => Setback::ForGood(Failure::Forbidden(title)),
             _ => Setback::ForGood(Failure::Other(title)),
@@ -113,6 +121,15 @@ impl Service {
 fn retry_after(response: &Response) -> Duration {
     let text = response.headers().get(RETRY_AFTER).and_then(|value| value.to_str().ok());
     text.and_then(|text| text.parse().ok()).map_or(Duration::from_secs(1), Duration::from_secs).min(LONGEST_WAIT)
+}
+
+/// Whether the service's certificate is not trusted: asking again does not change that.
+fn is_of_certificate(error: &(dyn Error + 'static)) -> bool {
+    if let Some(inner) = error.downcast_ref().and_then(std::io::Error::get_ref) {
+        return is_of_certificate(inner);
+    }
+    matches!(error.downcast_ref(), Some(rustls::Error::InvalidCertificate(_)))
+        || error.source().is_some_and(is_of_certificate)
 }
 
 /// The cause that says something, without the URL that the others repeat.

@@ -1,5 +1,6 @@
 #include "connection.hpp"
 
+#include <cstdlib>
 #include <exception>
 
 #include "failure.hpp"
@@ -25,6 +26,12 @@ void set(CURL* handle, CURLoption option, Value value) {
   }
 }
 
+/// No address of HTTP, or a certificate that is not trusted: asking again changes neither.
+bool is_for_good(CURLcode code) {
+  return code == CURLE_UNSUPPORTED_PROTOCOL || code == CURLE_URL_MALFORMAT || code == CURLE_PEER_FAILED_VERIFICATION ||
+         code == CURLE_SSL_CACERT_BADFILE;
+}
+
 }  // namespace
 
 Library::Library() {
@@ -46,6 +53,12 @@ Connection::Connection(const std::string& url, const std::string& key) : handle_
   set(handle_.get(), CURLOPT_HTTPHEADER, headers_.get());
   set(handle_.get(), CURLOPT_WRITEFUNCTION, &collect);
   set(handle_.get(), CURLOPT_NOSIGNAL, 1L);
+  // The key is for this address alone.
+  set(handle_.get(), CURLOPT_FOLLOWLOCATION, 0L);
+  // The program curl reads it; the library leaves that to who uses it.
+  if (const char* authorities = std::getenv("CURL_CA_BUNDLE"); authorities != nullptr) {
+    set(handle_.get(), CURLOPT_CAINFO, authorities);
+  }
 }
 
 void Connection::add_header(const std::string& line) {
@@ -65,6 +78,9 @@ std::variant<Reply, Lost> Connection::post(const std::string& body, std::chrono:
   set(handle_.get(), CURLOPT_TIMEOUT_MS, static_cast<long>(time_limit.count()));
   set(handle_.get(), CURLOPT_WRITEDATA, &reply.body);
   if (const CURLcode code = curl_easy_perform(handle_.get()); code != CURLE_OK) {
+    if (is_for_good(code)) {
+      throw Failure(Exit::refused, curl_easy_strerror(code));
+    }
     return Lost{curl_easy_strerror(code)};
   }
   curl_off_t seconds = 0;

@@ -65,8 +65,11 @@ std::variant<Answer, Again> judge(const Reply& reply) {
       throw Failure(Exit::key_refused, title(document, reply.status));
     case 422:
       throw Failure(Exit::invalid_scene, faults(document));
+    case 408:
     case 429:
+    case 502:
     case 503:
+    case 504:
       return Again{title(document, reply.status), std::clamp(reply.retry_after, 1s, longest_wait)};
     default:
       throw Failure(Exit::refused, title(document, reply.status));
@@ -75,7 +78,16 @@ std::variant<Answer, Again> judge(const Reply& reply) {
 
 std::variant<Answer, Again> judge(const Lost& lost) { return Again{lost.reason, std::nullopt}; }
 
+std::string address(std::string url) {
+  while (url.ends_with('/')) {
+    url.pop_back();
+  }
+  return url + "/v1/plans";
+}
+
 }  // namespace
+
+Service::Service(const std::string& url, const std::string& key) : connection_(address(url), key) {}
 
 Answer Service::plan(const Scene& scene) {
   const std::string body = scene.body();

@@ -9,7 +9,7 @@ namespace singulate {
 /// The planning service, asked until it answers.
 class Service {
  public:
-  Service(const std::string& url, const std::string& key) : connection_(url + "/v1/plans", key) {}
+  Service(const std::string& url, const std::string& key);
   [[nodiscard]] Answer plan(const Scene& scene);
 
  private:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .answers import Deadlock, Graspable, NoSpace, Relocate, Relocation, TimedOut, Unknown, read
-from .service import GaveUp, Refused, Service
+from .service import GaveUp, Refused, Service, Unreachable
 
 ROUNDS = 100
 DEFAULT_LIMIT_MS = 1000
@@ -21,11 +21,11 @@ def number(value: float) -> str:
     return f"{value:z.3f}"
 
 
-def time_limit_ms(scene: dict[str, Any]) -> int:
-    """What the scene names. Whether it is in order is for the service to say."""
-    settings = scene.get("settings")
+def time_limit_ms(scene: Any) -> int:
+    """What the scene names. Whether it is in order, and a scene at all, is for the service to say."""
+    settings = scene.get("settings") if isinstance(scene, dict) else None
     named = settings.get("time_limit_ms") if isinstance(settings, dict) else None
-    return named if isinstance(named, int) else DEFAULT_LIMIT_MS
+    return min(max(named, 0), LONGEST_LIMIT_MS) if isinstance(named, int) else DEFAULT_LIMIT_MS
 
 
 def relocate(scene: dict[str, Any], move: Relocation) -> None:
@@ -69,9 +69,11 @@ async def free(service: Service, scene: dict[str, Any]) -> int:
 
 
 async def main(path: str) -> int:
-    service = Service(os.environ.get("SINGULATE_URL", "http://127.0.0.1:8080"), os.environ.get("SINGULATE_KEY"))
     try:
-        return await free(service, json.loads(Path(path).read_text(encoding="utf-8")))
+        scene = json.loads(Path(path).read_text(encoding="utf-8"))
+        url, key = os.environ.get("SINGULATE_URL", "http://127.0.0.1:8080"), os.environ.get("SINGULATE_KEY")
+        async with Service(url, key) as service:
+            return await free(service, scene)
     except Refused as refused:
         if refused.status == 422:
             for fault in refused.faults:
@@ -81,10 +83,8 @@ async def main(path: str) -> int:
         return 6 if refused.status in (401, 403) else 1
     except GaveUp as reason:
         print(f"gave up: {reason}", file=sys.stderr)
-    except (Unknown, OSError, ValueError) as error:
+    except (Unknown, Unreachable, OSError, ValueError) as error:
         print(error, file=sys.stderr)
-    finally:
-        await service.close()
     return 1
 
 

@@ -3,7 +3,7 @@
 import asyncio
 import sys
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import httpx
 
@@ -25,6 +25,10 @@ class Refused(Exception):
         self.faults: list[dict[str, str]] = problem.get("errors", []) if isinstance(problem, dict) else []
 
 
+class Unreachable(Exception):
+    """An address or a certificate that asking again does not change."""
+
+
 class GaveUp(Exception):
     """No answer, however often it was asked."""
 
@@ -40,10 +44,17 @@ class Again:
 class Service:
     def __init__(self, url: str, key: str | None) -> None:
         headers = {"authorization": f"Bearer {key}"} if key else {}
-        # The call's own limit is a limit of the whole call; httpx would count each read by itself.
-        self._client = httpx.AsyncClient(base_url=url, headers=headers, timeout=None)
+        # The call's own limit is a limit of the whole call; httpx would count each read by itself. The key is for this
+        # address alone.
+        try:
+            self._client = httpx.AsyncClient(base_url=url, headers=headers, timeout=None, follow_redirects=False)
+        except httpx.InvalidURL as error:
+            raise Unreachable(f"{url}: {error}") from error
 
-    async def close(self) -> None:
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
         await self._client.aclose()
 
     async def plan(self, scene: dict[str, Any], time_limit_ms: int) -> Any:
@@ -65,13 +76,18 @@ class Service:
                 response = await self._client.post("/v1/plans", json=scene)
         except TimeoutError:
             return Again(f"no answer within {limit:g} s", _pause(tried))
+        except (httpx.UnsupportedProtocol, httpx.LocalProtocolError) as error:
+            raise Unreachable(str(error)) from error
         except httpx.TransportError as error:
+            # httpx has no error of its own for this.
+            if "CERTIFICATE_VERIFY_FAILED" in str(error):
+                raise Unreachable(str(error)) from error
             return Again(f"connection lost: {error}", _pause(tried))
         body = _decoded(response)
         match response.status_code:
             case 200:
                 return body
-            case 429 | 503 as status:
+            case 408 | 429 | 502 | 503 | 504 as status:
                 return Again(str(Refused(status, body)), _retry_after(response.headers.get("retry-after")))
             case status:
                 raise Refused(status, body)

@@ -29,5 +29,5 @@ class Settings:
     time_limit_ms: int = 1000
     # The height of the tool's frame where it grasps and releases.
     tool_z: float = math.nan
-    # Detections older than this say nothing about the table of now.
+    # Detections older than this say nothing about the table of now. The time to plan counts too.
     max_age: float = 1.0

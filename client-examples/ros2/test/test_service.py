@@ -6,15 +6,16 @@ import json
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Pose
+from std_msgs.msg import Header
 from table import SETTINGS, detections, planning_scene, table, vase
 
 from singulate_ros import service
@@ -30,6 +31,8 @@ GOOD: Reply = (200, {}, json.dumps(GRASPABLE))
 BUSY: Reply = (503, {"retry-after": "7"}, '{"title": "Overloaded"}')
 # More is promised than comes.
 CUT_OFF: Reply = (200, {"content-length": "1000"}, '{"verdict":')
+# Comes byte by byte, and is whole only after seconds.
+DRIP: Reply = (200, {}, 200 * " " + "{}")
 
 
 class Stage:
@@ -39,6 +42,7 @@ class Stage:
         self.replies = replies
         self.url = ""
         self.keys: list[str | None] = []
+        self.paths: list[str] = []
         self.bodies: list[Any] = []
 
 
@@ -48,6 +52,7 @@ def server(*replies: Reply) -> Iterator[Stage]:
 
     class Handler(BaseHTTPRequestHandler):
         def do_POST(self) -> None:
+            stage.paths.append(self.path)
             stage.keys.append(self.headers["authorization"])
             stage.bodies.append(json.loads(self.rfile.read(int(self.headers["content-length"]))))
             status, headers, body = stage.replies.pop(0)
@@ -55,7 +60,11 @@ def server(*replies: Reply) -> Iterator[Stage]:
             for name, value in headers.items():
                 self.send_header(name, value)
             self.end_headers()
-            self.wfile.write(body.encode())
+            with suppress(OSError):
+                for byte in body:
+                    self.wfile.write(byte.encode())
+                    # The pauses of time.sleep are skipped in these tests.
+                    Event().wait(0.05 if body == DRIP[2] else 0.0)
 
         def log_message(self, *_: object) -> None:
             pass
@@ -101,11 +110,31 @@ def test_a_service_that_is_busy_is_asked_again_when_it_says(waits: list[float]) 
     assert waits == [7.0, 1.0, 60.0]
 
 
+def test_a_proxy_that_does_not_reach_the_service_is_asked_again(waits: list[float]) -> None:
+    with server((502, {}, "<html>"), (504, {}, "<html>"), (408, {}, "{}"), GOOD) as stage:
+        assert service.ask(stage.url, "", SCENE) == GRASPABLE
+    assert waits == [1.0, 1.0, 1.0]
+
+
 def test_an_answer_that_breaks_off_is_asked_for_again(waits: list[float]) -> None:
     of_no_length: Reply = (200, {}, CUT_OFF[2])
     with server(CUT_OFF, of_no_length, GOOD) as stage:
         assert service.ask(stage.url, "", SCENE) == GRASPABLE
     assert waits == [0.2, 0.4]
+
+
+def test_an_answer_that_comes_byte_by_byte_has_a_limit_too(waits: list[float], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(service, "TRANSFER", -0.5)
+    with server(DRIP, GOOD) as stage:
+        assert service.ask(stage.url, "", SCENE) == GRASPABLE
+    assert waits == [0.2]
+
+
+def test_the_key_goes_to_nobody_else(waits: list[float]) -> None:
+    with server(GOOD) as other:
+        for status in (301, 302, 303, 307, 308):
+            refused(f"^HTTP {status}$", (status, {"location": f"{other.url}/v1/plans"}, ""))
+    assert (other.keys, waits) == ([], [])
 
 
 def test_after_five_tries_it_gives_up(waits: list[float]) -> None:
@@ -123,15 +152,22 @@ def test_a_server_that_is_not_there_is_given_up(waits: list[float]) -> None:
 
 
 def test_an_address_that_is_none_is_refused() -> None:
-    with pytest.raises(Failure, match="nowhere"):
-        service.ask("nowhere", "", SCENE)
+    for none in ("nowhere", "ftp://nowhere", "http://", "http://nowhere:x"):
+        with pytest.raises(Failure, match=none):
+            service.ask(none, "", SCENE)
+
+
+def test_a_slash_at_the_end_of_the_address_does_no_harm() -> None:
+    with server(GOOD) as stage:
+        assert service.ask(f"{stage.url}/", "", SCENE) == GRASPABLE
+    assert stage.paths == ["/v1/plans"]
 
 
 def test_what_asking_again_can_t_cure_is_told_at_once(waits: list[float]) -> None:
     fault = {"code": "off_table", "pointer": "/objects/0/x", "detail": "2 is not on the table"}
     refused("^off_table /objects/0/x: 2 is not on the table$", (422, {}, json.dumps({"title": "no", "errors": [fault]})))
     refused("^A key is needed$", (401, {}, '{"title": "A key is needed"}'))
-    refused("^HTTP 502$", (502, {}, "<html>"))
+    refused("^HTTP 501$", (501, {}, "<html>"))
     refused("^HTTP 500$", (500, {}, "[]"))
     assert waits == []
 
@@ -140,7 +176,7 @@ def test_messages_become_poses_by_way_of_the_service(monkeypatch: pytest.MonkeyP
     with server(GOOD) as stage:
         monkeypatch.setenv("SINGULATE_URL", stage.url)
         monkeypatch.setenv("SINGULATE_KEY", "sgl_key")
-        poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time(), Pose)
+        poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time, Pose)
     assert (stage.bodies, stage.keys) == ([SCENE], ["Bearer sgl_key"])
     assert [(pose.position.x, pose.position.y, pose.position.z) for pose in poses] == [(0.4, 0.25, 0.92)]
     assert words == "grasp"
@@ -149,9 +185,25 @@ def test_messages_become_poses_by_way_of_the_service(monkeypatch: pytest.MonkeyP
 def test_a_tool_of_no_known_height_is_not_sent_anywhere() -> None:
     unset = replace(SETTINGS, tool_z=Settings().tool_z)
     with pytest.raises(Failure, match="tool_z is not set"):
-        plan(detections(), planning_scene(table()), unset, Time(), Pose)
+        plan(detections(), planning_scene(table()), unset, Time, Pose)
 
 
 def test_old_detections_are_not_planned_with() -> None:
-    with pytest.raises(Failure, match="1.500 s old"):
-        plan(detections(), planning_scene(table()), SETTINGS, Time(sec=1, nanosec=500_000_000), Pose)
+    with pytest.raises(Failure, match=" 1.500 s old"):
+        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=1, nanosec=500_000_000), Pose)
+
+
+def test_detections_of_the_future_are_not_planned_with() -> None:
+    ahead = detections()
+    ahead.header = Header(frame_id="world", stamp=Time(sec=1, nanosec=500_000_000))
+    with pytest.raises(Failure, match="-1.500 s old"):
+        plan(ahead, planning_scene(table()), SETTINGS, Time, Pose)
+
+
+def test_detections_that_grow_old_while_the_service_is_asked_move_nothing(
+    waits: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with server(BUSY, GOOD) as stage, pytest.raises(Failure, match=" 7.000 s old"):
+        monkeypatch.setenv("SINGULATE_URL", stage.url)
+        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=int(sum(waits))), Pose)
+    assert (stage.replies, waits) == ([], [7.0])

@@ -60,14 +60,23 @@ function judge(response: Response, body: string): Outcome {
       throw new Failure(exit.keyRefused, title(document, response.status));
     case 422:
       throw new Failure(exit.invalidScene, faults(document));
+    case 408:
     case 429:
-    case 503: {
+    case 502:
+    case 503:
+    case 504: {
       const waitMs = retryAfterMs(response.headers.get("retry-after"));
       return { again: { reason: title(document, response.status), waitMs } };
     }
     default:
       throw new Failure(exit.refused, title(document, response.status));
   }
+}
+
+/** Whether the service's certificate is not trusted: asking again does not change that. */
+function isOfCertificate(error: unknown): boolean {
+  const cause = error instanceof Error && error.cause instanceof Error ? error.cause : undefined;
+  return cause !== undefined && "code" in cause && /CERT|SIGNATURE/.test(String(cause.code));
 }
 
 /** What `fetch` found; the word of the system where it has one. */
@@ -83,7 +92,10 @@ export class Service {
 
   /** An empty key is not sent. */
   constructor(url: string, key: string) {
-    this.address = `${url}/v1/plans`;
+    if (!/^https?:$/.test(new URL(url).protocol)) {
+      throw new Failure(exit.refused, `SINGULATE_URL is no address of HTTP: ${url}`);
+    }
+    this.address = `${url.replace(/\/+$/, "")}/v1/plans`;
     this.headers = {
       accept: "application/json",
       "content-type": "application/json",
@@ -113,9 +125,14 @@ export class Service {
     try {
       // The signal covers the body too, which may break off after its head has come.
       const signal = AbortSignal.timeout(scene.timeLimitMs + transferMs);
-      response = await fetch(this.address, { method: "POST", headers: this.headers, body: scene.body, signal });
+      const { headers } = this;
+      // A redirect is an answer like others: the key is for this address alone.
+      response = await fetch(this.address, { method: "POST", headers, body: scene.body, signal, redirect: "manual" });
       body = await response.text();
     } catch (error) {
+      if (isOfCertificate(error)) {
+        throw new Failure(exit.refused, reason(error));
+      }
       return { again: { reason: reason(error) } };
     }
     return judge(response, body);
