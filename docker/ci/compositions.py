@@ -160,7 +160,8 @@ def check_stream(proxy: str, key: str) -> None:
 def check_loss(fleet: Composition, proxy: str, key: str) -> None:
     """One replica is killed in the middle of its jobs and of its clients' requests."""
     before = set(all_jobs(proxy, key))
-    cpus = os.cpu_count() or 1
+    # What a replica may use, which is how many workers it has.
+    cpus = int(inspect(fleet.container("singulate-2"), ".HostConfig.NanoCpus")) // 10**9
     # Enough for the workers of both replicas, several times over.
     scene = slow_scene()
     slow = [persist(proxy, scene, key, f"slow-{number}") for number in range(6 * cpus)]
