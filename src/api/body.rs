@@ -13,6 +13,7 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::timeout;
 
 use super::app::App;
+use super::patience::Busy;
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
@@ -72,13 +73,17 @@ pub(super) async fn receive(request: Request<Body>, app: &App) -> Result<Receive
 
 /// Let the body of a request that is refused unread come to its end, unless that takes too long: a client that still
 /// sends when its connection closes may never see why. None of it is kept.
-pub(super) fn discard(request: Request<Body>, patience: Duration) {
+pub(super) fn discard(mut request: Request<Body>, patience: Duration) {
     // Who asks before sending has sent nothing, and would be told to.
     if request.headers().contains_key(header::EXPECT) || request.body().is_end_stream() {
         return;
     }
+    let busy = request.extensions_mut().remove::<Arc<Busy>>();
     let mut body = request.into_body();
-    tokio::spawn(timeout(patience, async move { while let Ok(Some(_)) = next(&mut body).await {} }));
+    tokio::spawn(timeout(patience, async move {
+        while let Ok(Some(_)) = next(&mut body).await {}
+        drop(busy);
+    }));
 }
 
 fn too_large(max: usize) -> Problem {

@@ -1,4 +1,4 @@
-//! What a request over TLS needs, and what its answer says.
+//! What a request needs where TLS is spoken.
 
 use std::sync::Arc;
 
@@ -8,32 +8,45 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::app::App;
+use super::body;
 use super::transport::OverTls;
+use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
 /// Paths that whoever looks after the service asks without a certificate.
 const PROBES: [&str; 2] = ["/livez", "/readyz"];
 
-/// A browser that was here does not come back without TLS for a year, whatever it is told to do.
-const STRICT: HeaderValue = HeaderValue::from_static("max-age=31536000");
-
-/// The middleware where TLS is spoken.
-pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
-    let tls = &app.settings.tls;
-    if tls.cert.is_none() {
+/// The middleware that lets nothing in that came without TLS.
+pub(super) async fn over_tls(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
+    if app.settings.tls.cert.is_none() || request.extensions().get::<OverTls>().is_some() {
         return next.run(request).await;
     }
-    let Some(OverTls { client_certificate }) = request.extensions().get().copied() else {
-        let mut response = Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https").into_response();
-        response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
-        return response;
-    };
-    let stranger = tls.client_ca.is_some() && !client_certificate;
-    let mut response = if stranger && !PROBES.contains(&request.uri().path()) {
-        Problem::new(ProblemKind::Unauthorized, "no client certificate came").into_response()
-    } else {
-        next.run(request).await
-    };
-    response.headers_mut().insert(header::STRICT_TRANSPORT_SECURITY, STRICT);
+    body::discard(request, app.settings.body_timeout);
+    last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https"))
+}
+
+/// The middleware that asks for a client's certificate where one is needed.
+pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
+    if app.settings.tls.client_ca.is_none() || PROBES.contains(&request.uri().path()) {
+        return next.run(request).await;
+    }
+    let shown = request.extensions().get::<OverTls>().and_then(|mark| mark.client_certificate.clone());
+    if shown.as_ref().is_some_and(|certificate| certificate.holds()) {
+        return next.run(request).await;
+    }
+    app.metrics.refused(Refusal::Unauthorized);
+    body::discard(request, app.settings.body_timeout);
+    let refused = |detail| Problem::new(ProblemKind::Unauthorized, detail);
+    match shown {
+        None => refused("no client certificate came").into_response(),
+        // On its next connection the client may show another one.
+        Some(_) => last(refused("the client certificate holds no longer")),
+    }
+}
+
+/// The last answer on its connection.
+fn last(problem: Problem) -> Response {
+    let mut response = problem.into_response();
+    response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
     response
 }

@@ -119,15 +119,16 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
     let service = TowerToHyperService::new(service);
     let asked = OnceLock::new();
     let service = service_fn(move |mut request: Request<Incoming>| {
-        if let Some(mark) = mark {
+        if let Some(mark) = mark.clone() {
             request.extensions_mut().insert(mark);
         }
         asked.get_or_init(|| Asking::new(asking.clone()));
-        quiet.set(false);
-        let (answer, quiet) = (service.call(request), quiet.clone());
+        let busy = Arc::new(quiet.busy());
+        request.extensions_mut().insert(Arc::clone(&busy));
+        let answer = service.call(request);
         async move {
             let answer = answer.await;
-            quiet.set(true);
+            drop(busy);
             answer
         }
     });

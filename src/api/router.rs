@@ -66,5 +66,6 @@ pub fn router(app: Arc<App>) -> Router {
         Some(cors) => router.layer(cors),
         None => router,
     };
+    let router = router.layer(from_fn_with_state(Arc::clone(&app), certificate::over_tls));
     router.layer(from_fn(headers::add)).layer(from_fn_with_state(Arc::clone(&app), edge::each_request)).with_state(app)
 }

@@ -2,12 +2,13 @@
 
 use core::time::Duration;
 use std::io;
+use std::sync::Arc;
 
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::time::timeout;
 
 use super::socket::Socket;
-use crate::tls::{Accepted, Acceptor};
+use crate::tls::{Accepted, Acceptor, ClientCertificate};
 
 /// Where the bytes of a request come from, and those of its answer go.
 pub(super) type Transport = Box<dyn Bytes>;
@@ -18,10 +19,10 @@ pub(super) trait Bytes: AsyncRead + AsyncWrite + Send + Unpin {}
 impl<S: AsyncRead + AsyncWrite + Send + Unpin> Bytes for S {}
 
 /// A mark on requests that came over TLS.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct OverTls {
-    /// True if the client has shown a certificate.
-    pub(super) client_certificate: bool,
+    /// What the client has shown.
+    pub(super) client_certificate: Option<Arc<ClientCertificate>>,
 }
 
 /// Agree with a client on TLS, for no longer than this. One that speaks HTTP as if there were no TLS is let through without
@@ -40,7 +41,8 @@ pub(super) async fn secure(
             return Ok((Box::new(socket) as Transport, None));
         }
         let Accepted { stream, client_certificate } = acceptor.accept(socket).await?;
-        Ok((Box::new(stream) as Transport, Some(OverTls { client_certificate })))
+        let mark = OverTls { client_certificate: client_certificate.map(Arc::new) };
+        Ok((Box::new(stream) as Transport, Some(mark)))
     };
     timeout(patience, agreeing).await?
 }

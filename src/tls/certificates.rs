@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use rustls::ServerConfig;
 use tokio::sync::watch;
 
 use super::server::Server;
@@ -14,9 +13,7 @@ use crate::watched_files::WatchedFiles;
 pub struct Certificates {
     paths: Vec<PathBuf>,
     files: WatchedFiles,
-    /// At the start.
-    fingerprint: String,
-    config: watch::Sender<Arc<ServerConfig>>,
+    server: watch::Sender<Arc<Server>>,
 }
 
 impl Certificates {
@@ -27,19 +24,20 @@ impl Certificates {
     pub fn read(settings: &TlsSettings) -> Result<Option<Self>, TlsError> {
         let Some(paths) = settings.files()? else { return Ok(None) };
         let files = WatchedFiles::read(paths.clone())?;
-        let Server { config, fingerprint } = Server::new(&paths, files.contents())?;
-        Ok(Some(Self { paths, files, fingerprint, config: watch::Sender::new(config) }))
+        let server = watch::Sender::new(Arc::new(Server::new(&paths, files.contents())?));
+        Ok(Some(Self { paths, files, server }))
     }
 
     /// Accepts connections, each with the certificate of its moment.
     pub fn acceptor(&self) -> Acceptor {
-        Acceptor::new(self.config.subscribe())
+        Acceptor::new(self.server.subscribe())
     }
 
-    /// Look after the files for ever. Connections that are open live on when a certificate is replaced. Files that don't
-    /// fit together, perhaps because only one of them is written yet, change nothing.
+    /// Look after the files for ever. Connections that are open live on when a certificate is replaced, but not those of
+    /// clients whose authority is listed no longer. Files that don't fit together, perhaps because only one of them is
+    /// written yet, change nothing.
     pub async fn keep_current(mut self) {
-        tracing::info!(sha256 = %self.fingerprint, "certificate");
+        tracing::info!(sha256 = %self.server.borrow().fingerprint, "certificate");
         loop {
             self.files.changed().await;
             if let Err(error) = self.replace() {
@@ -49,9 +47,9 @@ impl Certificates {
     }
 
     fn replace(&mut self) -> Result<(), TlsError> {
-        let Server { config, fingerprint } = Server::new(&self.paths, self.files.contents())?;
-        self.config.send_replace(config);
-        tracing::info!(sha256 = %fingerprint, "certificate replaced");
+        let server = Server::new(&self.paths, self.files.contents())?;
+        tracing::info!(sha256 = %server.fingerprint, "certificate replaced");
+        self.server.send_replace(Arc::new(server));
         Ok(())
     }
 }

@@ -9,7 +9,7 @@ mod server;
 mod settings;
 mod unverified;
 
-pub use acceptor::{Accepted, Acceptor};
+pub use acceptor::{Accepted, Acceptor, ClientCertificate};
 pub use certificates::Certificates;
 pub use server::TlsError;
 pub use settings::TlsSettings;

@@ -39,6 +39,8 @@ fn unfit(path: &Path, detail: impl ToString) -> TlsError {
 /// How connections begin, and by what the operator knows the certificate again: SHA-256, as openssl prints it.
 pub(super) struct Server {
     pub(super) config: Arc<ServerConfig>,
+    /// Tells whose clients are let in.
+    pub(super) clients: Arc<dyn ClientCertVerifier>,
     pub(super) fingerprint: String,
 }
 
@@ -66,11 +68,11 @@ impl Server {
             Some((path, authorities)) => client_verifier(path, authorities, provider)?,
             None => WebPkiClientVerifier::no_client_auth(),
         };
-        let config = versions.expect("ring speaks TLS 1.3").with_client_cert_verifier(clients);
+        let config = versions.expect("ring speaks TLS 1.3").with_client_cert_verifier(Arc::clone(&clients));
         let config = config.with_single_cert(chain, secret);
         let mut config = config.map_err(|error| unfit(key, format!("with {}: {error}", cert.display())))?;
         config.alpn_protocols = vec![b"http/1.1".to_vec()];
-        Ok(Self { config: Arc::new(config), fingerprint })
+        Ok(Self { config: Arc::new(config), clients, fingerprint })
     }
 }
 

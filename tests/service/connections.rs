@@ -1,11 +1,13 @@
 //! Clients that are slow, idle or many.
 
 use core::time::Duration;
-use std::io::Write;
+use std::io::{Read, Write};
 
 use singulate::api::{Engine, ServerSettings};
+use singulate::keys::{FreshKey, append};
+use tokio::task::spawn_blocking;
 
-use crate::host::{Host, read_to_end};
+use crate::host::{Host, PATIENCE, read_to_end};
 
 #[tokio::test]
 async fn a_slow_head_is_cut_off() {
@@ -35,6 +37,31 @@ async fn a_slow_second_head_is_cut_off_too() {
     tokio::time::sleep(Duration::from_millis(100)).await;
     stream.write_all(b"GET /livez").unwrap();
     assert_eq!(read_to_end(stream).await.matches("HTTP/1.1 200 OK").count(), 1);
+}
+
+#[tokio::test]
+async fn what_comes_of_a_body_after_its_request_was_refused_is_no_slow_head() {
+    let patience = Duration::from_millis(300);
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("late-{}.toml", std::process::id()));
+    append(&FreshKey::new("other", "plan".parse().unwrap(), "1000".parse().unwrap()).unwrap(), &file).unwrap();
+    let (header_timeout, api_keys_file) = (patience, Some(file.clone()));
+    let settings =
+        ServerSettings { header_timeout, body_timeout: PATIENCE, api_keys_file, ..ServerSettings::default() };
+    let host = Host::with(settings, Engine::default()).await;
+    let half = " ".repeat(50_000);
+    let mut stream =
+        host.raw(&format!("POST /v1/plans HTTP/1.1\r\nhost: x\r\ncontent-length: 100000\r\n\r\n{}", &half[1..]));
+    let answer = {
+        let mut stream = stream.try_clone().unwrap();
+        move || stream.read(&mut [0; 4096]).unwrap()
+    };
+    assert!(spawn_blocking(answer).await.unwrap() > 0);
+    for rest in [" ", half.as_str(), "GET /livez HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n"] {
+        stream.write_all(rest.as_bytes()).unwrap();
+        tokio::time::sleep(patience * 2).await;
+    }
+    assert!(read_to_end(stream).await.contains("HTTP/1.1 200 OK"));
+    std::fs::remove_file(file).unwrap();
 }
 
 #[tokio::test]
