@@ -116,9 +116,7 @@ impl Intake<'_> {
         }
         Ok(())
     }
-}
 
-impl Intake<'_> {
     /// True if there is room for so many bytes.
     fn make_room(&mut self, length: usize) -> bool {
         let held = self.room.as_ref().map_or(0, OwnedSemaphorePermit::num_permits);
