@@ -75,7 +75,8 @@ impl Connections {
             let open = app.metrics.connection();
             let socket = Socket::new(stream, app.settings.write_timeout);
             let begun = match tls {
-                Some(acceptor) => transport::secure(socket, &acceptor, app.settings.header_timeout).await,
+                // Boxed: else every connection would keep the room that agreeing takes for as long as it lives.
+                Some(acceptor) => Box::pin(transport::secure(socket, &acceptor, app.settings.header_timeout)).await,
                 None => Ok((Box::new(socket) as Transport, None)),
             };
             match begun {
