@@ -328,3 +328,24 @@ async fn a_key_that_is_gone_ends_its_streams_and_waits() {
     let state = guarded.get(&stays, &job).await.json()["state"].clone();
     assert!(state == "queued" || state == "running", "{state}");
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn whoever_guesses_keys_gets_nowhere_and_holds_up_nobody() {
+    let good = key("good", "plan", OFTEN);
+    let guarded = Guarded::start("guesses", &[&good]).await;
+    let guesses = async {
+        for number in 0..1000 {
+            // Nearly right, and wrong all the same.
+            let guess = format!("Bearer {}{number}", &good.text()[..40]);
+            let reply = guarded.ask("POST", "/v1/plans", &[guess.as_bytes()], Some(&scene(1000))).await;
+            reply.is_problem(401, "unauthorized");
+        }
+    };
+    let plans = async {
+        for _ in 0..50 {
+            assert_eq!(guarded.call(&good, "POST", "/v1/plans", Some(&scene(1000))).await.status, 200);
+        }
+    };
+    tokio::join!(guesses, plans);
+    assert_eq!(guarded.call(&good, "POST", "/v1/plans", Some(&scene(1000))).await.status, 200);
+}
