@@ -21,7 +21,7 @@ impl Server {
         let mut out = BufReader::new(child.stdout.take().expect("a pipe"));
         let mut line = String::new();
         out.read_line(&mut line).expect("a line");
-        let address = line.split_whitespace().find_map(|word| word.strip_prefix("http://")?.parse().ok());
+        let address = line.split_whitespace().find_map(|word| word.split_once("://")?.1.parse().ok());
         Self { child, _out: out, address: address.unwrap_or_else(|| panic!("no address: '{line}'")) }
     }
 

@@ -58,7 +58,7 @@ impl Default for ServerSettings {
             queue: 64,
             // 10,000 objects, the most of a scene, with ids of 100 characters each.
             max_body_bytes: 4_000_000,
-            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 13 kB, or 20 kB
+            // 10,000 robots that rest between two plans, and some that reconnect meanwhile. Each costs some 13 kB, or 22 kB
             // with TLS, and a file descriptor.
             connections: 12_000,
             // Whoever waits is a connection and some kB.
