@@ -33,6 +33,11 @@ impl WatchedFiles {
         Ok(Self { paths, contents, pause: PAUSE })
     }
 
+    /// Where they are.
+    pub fn paths(&self) -> &[PathBuf] {
+        &self.paths
+    }
+
     /// What they hold, in the order of the paths.
     pub fn contents(&self) -> &[Vec<u8>] {
         &self.contents

@@ -66,6 +66,7 @@ impl App {
         let pool = Pool::new(settings.threads, settings.queue)?;
         let runner = Runner::new(Arc::clone(&store), Arc::clone(&metrics), &settings.jobs, engine, settings.limits)?;
         let (waiting, streams) = (Semaphore::new(settings.max_waiting), Semaphore::new(settings.max_streams));
+        let bodies = body::room(settings.max_body_bytes);
         Ok(Self {
             settings,
             keys,
@@ -75,7 +76,7 @@ impl App {
             runner: Arc::new(runner),
             metrics,
             submitting: Semaphore::new(MAX_SUBMITTING),
-            bodies: Arc::new(Semaphore::new(body::ROOM)),
+            bodies: Arc::new(bodies),
             waiting,
             streams: Arc::new(streams),
             draining: Draining::default(),

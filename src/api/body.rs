@@ -19,8 +19,8 @@ use crate::wire::{Problem, ProblemKind};
 
 /// Bodies take room in pieces of so many bytes.
 const PIECE: usize = 1024;
-/// The room for all bodies together, in pieces: 64 MB, sixteen of the largest bodies. Each connection could hold one.
-pub(super) const ROOM: usize = 64 * 1024;
+/// The room for all bodies together, in pieces: 64 MB, by default sixteen of the largest. Each connection could hold one.
+const ROOM: usize = 64 * 1024;
 /// Pieces that cost nothing: most bodies have no more, and a connection itself takes about as much.
 const FREE: usize = 16;
 
@@ -36,6 +36,11 @@ impl Deref for Received {
     fn deref(&self) -> &[u8] {
         &self.bytes
     }
+}
+
+/// The room for all bodies together; always for one of the largest.
+pub(super) fn room(max_body_bytes: usize) -> Semaphore {
+    Semaphore::new(ROOM.max(max_body_bytes.div_ceil(PIECE)))
 }
 
 /// The whole body of a request that declares JSON.

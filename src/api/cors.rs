@@ -18,6 +18,9 @@ pub struct CorsOrigins(Vec<String>);
 impl CorsOrigins {
     /// What answers browsers, where any page may call. It also answers what they ask beforehand, which has no key.
     pub(super) fn layer(&self) -> Option<CorsLayer> {
+        if self.0.is_empty() {
+            return None;
+        }
         let origins: Vec<HeaderValue> = self.0.iter().filter_map(|origin| origin.parse().ok()).collect();
         let layer = CorsLayer::new()
             .allow_origin(AllowOrigin::list(origins))
@@ -28,7 +31,7 @@ impl CorsOrigins {
             )
             .expose_headers([header::LOCATION, header::RETRY_AFTER, HeaderName::from_static("x-request-id")])
             .max_age(MAX_AGE);
-        (!self.0.is_empty()).then_some(layer)
+        Some(layer)
     }
 }
 

@@ -55,8 +55,7 @@ pub fn openapi() -> utoipa::openapi::OpenApi {
     let components = document.components.get_or_insert_default();
     let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).description(Some(BEARER)).build();
     components.add_security_scheme(SCHEME, SecurityScheme::Http(bearer));
-    let schemas = document.components.iter_mut().flat_map(|components| components.schemas.values_mut());
-    schemas.for_each(describe_nullable_fields);
+    components.schemas.values_mut().for_each(describe_nullable_fields);
     document
 }
 

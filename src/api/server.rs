@@ -28,7 +28,7 @@ const LAST_LOOK: Duration = Duration::from_secs(1);
 /// Serve on `listener` until `shutdown` is done; then drain and return.
 ///
 /// # Errors
-/// If the system gives no threads, or the files with certificates don't fit together.
+/// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
 pub async fn run(
     listener: TcpListener,
     settings: ServerSettings,
@@ -40,7 +40,7 @@ pub async fn run(
 /// [`run`] with other computations than the planner's.
 ///
 /// # Errors
-/// If the system gives no threads, or the files with certificates don't fit together.
+/// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
 pub async fn run_with(
     listener: TcpListener,
     settings: ServerSettings,

@@ -28,6 +28,12 @@ const fn milliseconds(
     Setting { name, needed_by: NeededBy::Service, placeholder: "MS", help, value: Value::Milliseconds { least, field } }
 }
 
+/// A count in the service.
+const fn count(name: &'static str, least: u64, help: &'static str, field: fn(&mut Config) -> &mut usize) -> Setting {
+    let value = Value::Whole { least, most: MAX_COUNT, field };
+    Setting { name, needed_by: NeededBy::Service, placeholder: "N", help, value }
+}
+
 /// Every setting.
 pub static SETTINGS: &[Setting] = &[
     Setting {
@@ -78,27 +84,13 @@ pub static SETTINGS: &[Setting] = &[
     file("tls_client_ca", "The authorities of clients, PEM; each then needs a certificate of theirs", |config| {
         &mut config.server.tls.client_ca
     }),
-    Setting {
-        name: "threads",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Planning threads; one per core where nothing is said",
-        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.threads },
-    },
-    Setting {
-        name: "queue",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Requests that may wait for a planning thread; more are refused with 503",
-        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.queue },
-    },
-    Setting {
-        name: "max_connections",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Connections at a time; more wait to be accepted",
-        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.connections },
-    },
+    count("threads", 1, "Planning threads; one per core where nothing is said", |config| &mut config.server.threads),
+    count("queue", 0, "Requests that may wait for a planning thread; more are refused with 503", |config| {
+        &mut config.server.queue
+    }),
+    count("max_connections", 1, "Connections at a time; more wait to be accepted", |config| {
+        &mut config.server.connections
+    }),
     Setting {
         name: "max_body_bytes",
         needed_by: NeededBy::Service,
@@ -134,45 +126,25 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.server.jobs.url.clone(),
         },
     },
-    Setting {
-        name: "job_threads",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Planning threads for jobs; one per core where nothing is said",
-        value: Value::Whole { least: 1, most: MAX_COUNT, field: |config| &mut config.server.jobs.threads },
-    },
-    Setting {
-        name: "max_queued_jobs",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Jobs that may wait in the store; more are refused with 503",
-        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.jobs.max_queued },
-    },
-    Setting {
-        name: "job_lease_ms",
-        needed_by: NeededBy::Service,
-        placeholder: "MS",
-        help: "For how long a worker that says nothing keeps its job",
-        // Below a second a busy machine would take jobs from workers that live.
-        value: Value::Milliseconds { least: 1000, field: |config| &mut config.server.jobs.lease },
-    },
+    count("job_threads", 1, "Planning threads for jobs; one per core where nothing is said", |config| {
+        &mut config.server.jobs.threads
+    }),
+    count("max_queued_jobs", 0, "Jobs that may wait in the store; more are refused with 503", |config| {
+        &mut config.server.jobs.max_queued
+    }),
+    // Below a second a busy machine would take jobs from workers that live.
+    milliseconds("job_lease_ms", 1000, "For how long a worker that says nothing keeps its job", |config| {
+        &mut config.server.jobs.lease
+    }),
     milliseconds("job_ttl_ms", 1, "How long a job may wait, and for how long an ended one is kept", |config| {
         &mut config.server.jobs.ttl
     }),
-    Setting {
-        name: "max_waiting",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Clients that may wait for the ends of jobs at a time",
-        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_waiting },
-    },
-    Setting {
-        name: "max_streams",
-        needed_by: NeededBy::Service,
-        placeholder: "N",
-        help: "Clients that may listen to the events of jobs at a time",
-        value: Value::Whole { least: 0, most: MAX_COUNT, field: |config| &mut config.server.max_streams },
-    },
+    count("max_waiting", 0, "Clients that may wait for the ends of jobs at a time", |config| {
+        &mut config.server.max_waiting
+    }),
+    count("max_streams", 0, "Clients that may listen to the events of jobs at a time", |config| {
+        &mut config.server.max_streams
+    }),
     milliseconds("drain_ms", 1, "How long what runs has to end once the service is asked to", |config| {
         &mut config.server.drain
     }),

@@ -70,7 +70,7 @@ impl Keys {
     pub fn open(path: &Path) -> Result<Self, KeysError> {
         let files = WatchedFiles::read(vec![path.to_owned()]).map_err(|error| KeysError(vec![error.to_string()]))?;
         let entries = read(content(&files)).map_err(|faults| KeysError::faults(path, &faults))?;
-        let in_force = RwLock::new(entries.into_iter().map(|entry| Held::after(None, entry)).collect());
+        let in_force = RwLock::new(entries.into_iter().map(Held::unused).collect());
         Ok(Self { path: path.to_owned(), in_force, files: Mutex::new(files) })
     }
 
@@ -113,17 +113,18 @@ impl Keys {
     fn take_over(&self, read: Result<Vec<KeyEntry>, Vec<String>>) -> Result<(), KeysError> {
         let entries = read.map_err(|faults| KeysError::faults(&self.path, &faults))?;
         let before = self.in_force();
-        let mut held: HashMap<_, _> = before.iter().map(|held| (held.entry.digest, held)).collect();
-        let after: Arc<[Arc<Held>]> =
-            entries.into_iter().map(|entry| Held::after(held.get(&entry.digest), entry)).collect();
+        let mut gone: HashMap<_, _> = before.iter().map(|held| (held.entry.digest, held)).collect();
+        let after = |entry: KeyEntry| {
+            let held = gone.get(&entry.digest).copied();
+            let spent = held.map(|held| Arc::clone(&held.spent)).unwrap_or_default();
+            let same = held.filter(|held| held.entry.is_same(&entry));
+            let end = same.and_then(|_| gone.remove(&entry.digest)).map(|held| held.gone.clone()).unwrap_or_default();
+            Arc::new(Held { entry, spent, gone: end })
+        };
+        let after: Arc<[Arc<Held>]> = entries.into_iter().map(after).collect();
         tracing::info!(path = %self.path.display(), keys = after.len(), "the keys were replaced");
-        *self.in_force.write().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&after);
-        for kept in after.iter() {
-            if held.get(&kept.entry.digest).is_some_and(|held| held.entry.is_same(&kept.entry)) {
-                held.remove(&kept.entry.digest);
-            }
-        }
-        held.into_values().for_each(|held| held.gone.cancel());
+        *self.in_force.write().unwrap_or_else(PoisonError::into_inner) = after;
+        gone.into_values().for_each(|held| held.gone.cancel());
         Ok(())
     }
 }
@@ -133,12 +134,9 @@ fn content(files: &WatchedFiles) -> &[u8] {
 }
 
 impl Held {
-    /// The entry in force, after the one that the same key had before.
-    fn after(before: Option<&&Arc<Self>>, entry: KeyEntry) -> Arc<Self> {
-        let spent = before.map(|held| Arc::clone(&held.spent)).unwrap_or_default();
-        let as_before = before.filter(|held| held.entry.is_same(&entry));
-        let gone = as_before.map(|held| held.gone.clone()).unwrap_or_default();
-        Arc::new(Self { entry, spent, gone })
+    /// A key that nobody has used yet.
+    fn unused(entry: KeyEntry) -> Arc<Self> {
+        Arc::new(Self { entry, spent: Arc::default(), gone: CancellationToken::new() })
     }
 }
 

@@ -23,14 +23,13 @@ const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
 /// Everything that is wrong with it, each fault with its line.
 pub(super) fn read(text: &[u8]) -> Result<Vec<KeyEntry>, Vec<String>> {
     let text = str::from_utf8(text).map_err(|_| vec!["not UTF-8".to_owned()])?;
-    let mut reader = Reader { text, digests: HashSet::new(), faults: Vec::new() };
+    let mut reader = Reader { text, faults: Vec::new() };
     let entries = reader.document();
     if reader.faults.is_empty() { Ok(entries) } else { Err(reader.faults) }
 }
 
 struct Reader<'a> {
     text: &'a str,
-    digests: HashSet<KeyDigest>,
     faults: Vec<String>,
 }
 
@@ -54,14 +53,15 @@ impl Reader<'_> {
                 return Vec::new();
             }
         };
-        let mut entries = Vec::new();
+        let (mut entries, mut digests) = (Vec::new(), HashSet::new());
         for (name, value) in &table {
             match value.get_ref() {
                 DeValue::Array(keys) if name.get_ref() == "key" && keys.len() > MAX_KEYS => {
                     self.fault(name.span().start, &format!("more than {MAX_KEYS} keys"));
                 }
                 DeValue::Array(keys) if name.get_ref() == "key" => {
-                    entries = keys.iter().zip(1..).filter_map(|(key, number)| self.key(key, number)).collect();
+                    let entry = |(key, number)| self.key(key, number, &mut digests);
+                    entries = keys.iter().zip(1..).filter_map(entry).collect();
                 }
                 _ => self.fault(name.span().start, "here are only entries that begin with [[key]]"),
             }
@@ -72,7 +72,7 @@ impl Reader<'_> {
         entries
     }
 
-    fn key(&mut self, key: &Spanned<DeValue<'_>>, number: usize) -> Option<KeyEntry> {
+    fn key(&mut self, key: &Spanned<DeValue<'_>>, number: usize, digests: &mut HashSet<KeyDigest>) -> Option<KeyEntry> {
         let start = key.span().start;
         let Some(table) = key.get_ref().as_table() else {
             self.fault(start, &format!("key {number}: an entry begins with [[key]]"));
@@ -85,7 +85,14 @@ impl Reader<'_> {
             let name = value.as_str().unwrap_or_default();
             check_name(name).map(|()| name.to_owned())
         });
-        let digest = self.digest(table, (start, number));
+        let digest = self.field(table, (start, number, "sha256"), |value| {
+            let digest = value.as_str().and_then(KeyDigest::read);
+            let digest = digest.ok_or("sha256 is 64 hexadecimal digits, the SHA-256 of the key's text")?;
+            if digest == KeyDigest::of(b"") {
+                return Err("this is the sha256 of no text at all".to_owned());
+            }
+            digests.insert(digest).then_some(digest).ok_or("this sha256 stands in another entry too".to_owned())
+        });
         let scopes = self.field(table, (start, number, "scopes"), |value| {
             let words = value.as_array().into_iter().flat_map(|words| words.iter());
             Scopes::read(words.map(|word| word.get_ref().as_str().unwrap_or_default()))
@@ -96,23 +103,6 @@ impl Reader<'_> {
             _ => Rate::new(f64::NAN),
         });
         Some(KeyEntry { name: name?, digest: digest?, scopes: scopes?, rate: rate? })
-    }
-
-    fn digest(&mut self, table: &DeTable<'_>, (start, number): (usize, usize)) -> Option<KeyDigest> {
-        let mut digests = core::mem::take(&mut self.digests);
-        let digest = self.field(table, (start, number, "sha256"), |value| {
-            let digest = value.as_str().and_then(KeyDigest::read);
-            let digest = digest.ok_or("sha256 is 64 hexadecimal digits, the SHA-256 of the key's text")?;
-            if digest == KeyDigest::of(b"") {
-                return Err("this is the sha256 of no text at all".to_owned());
-            }
-            if !digests.insert(digest) {
-                return Err("this sha256 stands in another entry too".to_owned());
-            }
-            Ok(digest)
-        });
-        self.digests = digests;
-        digest
     }
 
     /// A field of the entry that begins at `start`.

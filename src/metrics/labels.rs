@@ -46,7 +46,7 @@ words! {
         StoreUnavailable = "store_unavailable",
         /// As many wait, or watch, as may.
         Limit = "limit",
-        /// No key, or one that does not hold.
+        /// No key or client certificate, or one that does not hold.
         Unauthorized = "unauthorized",
         /// A key for something else.
         Forbidden = "forbidden",

@@ -32,8 +32,8 @@ pub struct ClientCertificate {
 }
 
 impl ClientCertificate {
-    /// True as long as one of the authorities that are listed now has signed it. Only where files have been replaced since
-    /// is it checked again: clients of an authority that is still listed go on with the connections they have.
+    /// True as long as one of the authorities that are listed now has signed it. Where files have been replaced since,
+    /// it is checked again at each request, its dates too: clients of an authority that is still listed go on with the connections they have.
     pub fn holds(&self) -> bool {
         let server = Arc::clone(&self.server.borrow());
         let Some((own, others)) = self.chain.split_first() else { return false };

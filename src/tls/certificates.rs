@@ -1,6 +1,5 @@
 //! Certificates that may be replaced while the service runs.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use tokio::sync::watch;
@@ -11,7 +10,6 @@ use crate::watched_files::WatchedFiles;
 
 /// The service's certificate with its key, and the authorities of its clients, as they are in their files now.
 pub struct Certificates {
-    paths: Vec<PathBuf>,
     files: WatchedFiles,
     server: watch::Sender<Arc<Server>>,
 }
@@ -23,9 +21,9 @@ impl Certificates {
     /// If files are missing, or can't be read, or don't fit together.
     pub fn read(settings: &TlsSettings) -> Result<Option<Self>, TlsError> {
         let Some(paths) = settings.files()? else { return Ok(None) };
-        let files = WatchedFiles::read(paths.clone())?;
-        let server = watch::Sender::new(Arc::new(Server::new(&paths, files.contents())?));
-        Ok(Some(Self { paths, files, server }))
+        let files = WatchedFiles::read(paths)?;
+        let server = watch::Sender::new(Arc::new(Server::new(files.paths(), files.contents())?));
+        Ok(Some(Self { files, server }))
     }
 
     /// Accepts connections, each with the certificate of its moment.
@@ -47,7 +45,7 @@ impl Certificates {
     }
 
     fn replace(&mut self) -> Result<(), TlsError> {
-        let server = Server::new(&self.paths, self.files.contents())?;
+        let server = Server::new(self.files.paths(), self.files.contents())?;
         tracing::info!(sha256 = %server.fingerprint, "certificate replaced");
         self.server.send_replace(Arc::new(server));
         Ok(())

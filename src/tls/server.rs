@@ -1,6 +1,5 @@
 //! From the contents of the files to what a connection begins with.
 
-use core::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -102,13 +101,8 @@ fn client_verifier(
 }
 
 fn fingerprint(certificate: &CertificateDer<'_>) -> String {
-    let mut text = String::new();
-    for byte in Sha256::digest(certificate) {
-        let colon = if text.is_empty() { "" } else { ":" };
-        // Nothing is wrong with a string as a place to write to.
-        let _ = write!(text, "{colon}{byte:02X}");
-    }
-    text
+    let pairs: Vec<String> = Sha256::digest(certificate).iter().map(|byte| format!("{byte:02X}")).collect();
+    pairs.join(":")
 }
 
 #[cfg(test)]

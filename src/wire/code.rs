@@ -23,7 +23,7 @@ pub enum ErrorCode {
     UnknownValue,
     /// Not a whole number.
     NotWhole,
-    /// Too small, too large, or further from 0 than any number may be.
+    /// Too small, too large, or further from 0 than any number may be; a parameter that can't be read; a URL of too many bytes.
     OutOfRange,
     /// An id is empty or too long.
     IdLength,
@@ -55,7 +55,7 @@ pub enum ErrorCode {
     TooFewScenes,
     /// A batch with more scenes than it may have.
     TooManyScenes,
-    /// The URL of a callback is too long.
+    /// The URL of a callback has too many characters.
     UrlLength,
     /// The URL of a callback is none that could be called.
     BadCallbackUrl,

@@ -5,7 +5,7 @@ use core::time::Duration;
 /// The weight of the latest computation in the mean: a busy pool knows of a change within some dozens of computations.
 const LATEST: f64 = 1.0 / 16.0;
 /// How many times the mean a computation counts for at the most. One survey of a minute among quick plans must not have
-/// the next plans refused that would be answered at once; where long ones go on coming, the mean follows within some of them.
+/// the next plans refused that would be answered at once; where long ones go on coming, the mean follows within some dozens of them.
 const EXCEPTION: u32 = 4;
 /// The least time that a mean is taken for when that is judged: scheduling alone makes quick ones differ by as much.
 const QUICK: Duration = Duration::from_millis(1);
@@ -26,8 +26,7 @@ impl Forecast {
     /// A computation had a thread for so long.
     pub(super) fn note(&mut self, took: Duration) {
         self.known = self.known.saturating_add(1);
-        let took =
-            if self.known == 1 { took.min(EXCEPTION * QUICK) } else { took.min(EXCEPTION * self.mean.max(QUICK)) };
+        let took = took.min(EXCEPTION * self.mean.max(QUICK));
         self.mean = self.mean.mul_f64(1.0 - LATEST) + took.mul_f64(LATEST);
     }
 
