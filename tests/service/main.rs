@@ -7,6 +7,7 @@ mod browsers;
 mod connections;
 mod document;
 mod draining;
+mod frozen;
 mod golden;
 mod hard;
 mod haste;
