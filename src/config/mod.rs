@@ -25,7 +25,7 @@ pub struct Config {
     pub server: ServerSettings,
     /// That everybody may call, wherever the service listens.
     pub insecure: bool,
-    /// Which log lines are written, as `tracing` filters are written.
+    /// Which log lines are written: a level, and levels for parts of the program.
     pub log: String,
     /// How they are written.
     pub log_format: LogFormat,

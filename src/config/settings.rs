@@ -241,7 +241,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "log",
         needed_by: NeededBy::Planning,
         placeholder: "FILTER",
-        help: "Which log lines go to stderr, such as warn or info,singulate=debug",
+        help: "Which log lines go to stderr: off, error, warn, info, debug or trace, and levels for parts, such as info,singulate=debug",
         value: Value::Other {
             set: |config, text| {
                 telemetry::filter(text)?;
