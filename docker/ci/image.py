@@ -120,15 +120,15 @@ def check_insecure() -> None:
 
 
 def check_tls() -> None:
-    """By TLS too, the engine's probe finds its way."""
+    """By TLS too, of which only flags speak, the engine's probe finds its way."""
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o755)
         certificate = ["-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2"]
         names = ["-subj", "/CN=singulate", "-addext", "subjectAltName=IP:127.0.0.1", "-addext", "basicConstraints=critical,CA:FALSE"]
         run("openssl", "req", *certificate, *names, "-keyout", f"{folder}/key.pem", "-out", f"{folder}/certificate.pem")
         os.chmod(f"{folder}/key.pem", 0o644)
-        files = ["--env", "SINGULATE_TLS_CERT=/tls/certificate.pem", "--env", "SINGULATE_TLS_KEY=/tls/key.pem"]
-        with container("--volume", f"{folder}:/tls:ro", *files, "--env", "SINGULATE_INSECURE=true") as name:
+        serve = ("serve", "--insecure", "--tls-cert", "/tls/certificate.pem", "--tls-key", "/tls/key.pem")
+        with container("--volume", f"{folder}:/tls:ro", command=serve) as name:
             healthy(name)
             trusted = ssl.create_default_context(cafile=f"{folder}/certificate.pem")
             with urllib.request.urlopen(url(name, "https") + "/readyz", context=trusted) as response:

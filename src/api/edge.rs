@@ -6,15 +6,17 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use axum::body::Body;
 use axum::extract::{MatchedPath, State};
-use axum::http::{HeaderName, HeaderValue, Method, Request};
+use axum::http::{HeaderName, HeaderValue, Method, Request, StatusCode, Uri};
 use axum::middleware::Next;
 use axum::response::Response;
 use opentelemetry::context::FutureExt;
 use tracing::{Instrument, Span, field};
 
 use super::app::App;
-use crate::metrics::Metrics;
+use crate::keys::without_keys;
+use crate::metrics::{Metrics, milliseconds};
 use crate::traces::{RequestSpan, Traceparent};
+use crate::wire::Cause;
 
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 const TRACEPARENT: HeaderName = HeaderName::from_static("traceparent");
@@ -22,28 +24,38 @@ const TRACEPARENT: HeaderName = HeaderName::from_static("traceparent");
 /// The longest request id that is taken over from a client, characters.
 const MAX_REQUEST_ID: usize = 128;
 
+/// The longest path or method that is logged, characters: room for every path that there is, with a job's id.
+const MAX_SHOWN: usize = 128;
+
 /// Tells of the request once it is answered, or once its client has hung up.
 struct Trail {
     line: Span,
     span: Option<RequestSpan>,
     metrics: Arc<Metrics>,
     method: Method,
-    path: Option<MatchedPath>,
+    route: Option<MatchedPath>,
+    uri: Uri,
     started: Instant,
-    status: Option<u16>,
+    status: Option<StatusCode>,
+    /// Which problem was answered.
+    cause: Option<Cause>,
 }
 
 impl Drop for Trail {
     fn drop(&mut self) {
         let took = self.started.elapsed();
-        let ms = took.as_secs_f64() * 1000.0;
-        self.line.in_scope(|| match self.status {
-            Some(status) => tracing::info!(status, ms, "answered"),
+        let ms = milliseconds(took);
+        let status = self.status.map(|status| status.as_u16());
+        let problem = self.cause.map(|cause| field::display(cause.problem));
+        let code = self.cause.and_then(|cause| cause.code).map(field::display);
+        let path = (self.status == Some(StatusCode::NOT_FOUND)).then(|| shown(self.uri.path()));
+        self.line.in_scope(|| match status {
+            Some(status) => tracing::info!(status, ms, problem, code, path, "answered"),
             None => tracing::info!(ms, "the client hung up"),
         });
-        self.metrics.request(template(self.path.as_ref()), self.method.as_str(), self.status, took);
+        self.metrics.request(template(self.route.as_ref()), self.method.as_str(), status, took);
         if let Some(span) = &self.span {
-            span.answered(self.status);
+            span.answered(status);
         }
     }
 }
@@ -52,22 +64,32 @@ impl Drop for Trail {
 pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<Body>, next: Next) -> Response {
     let started = Instant::now();
     let (id, method) = (request_id(&request), request.method().clone());
-    let matched = request.extensions().get::<MatchedPath>().cloned();
-    let path = template(matched.as_ref());
+    let (matched, uri) = (request.extensions().get::<MatchedPath>().cloned(), request.uri().clone());
+    let route = template(matched.as_ref());
+    let name = id.to_str().unwrap_or_default();
     let parent = request.headers().get(TRACEPARENT).and_then(|value| Traceparent::parse(value.to_str().ok()?));
     let trace_id = parent.as_ref().map(field::display);
-    let line =
-        tracing::info_span!("request", %method, path, id = ?id, trace_id, key = field::Empty, scene_id = field::Empty);
-    let span = RequestSpan::begin(method.as_str(), path, id.to_str().unwrap_or_default(), parent.as_ref());
+    let line = tracing::info_span!(
+        "request",
+        method = %shown(method.as_str()),
+        route,
+        id = name,
+        trace_id,
+        key = field::Empty,
+        scene_id = field::Empty
+    );
+    let span = RequestSpan::begin(method.as_str(), route, name, parent.as_ref());
     let context = span.as_ref().map(RequestSpan::context);
     let metrics = Arc::clone(&app.metrics);
-    let mut trail = Trail { line: line.clone(), span, metrics, method, path: matched, started, status: None };
-    let answered = next.run(request).instrument(line);
+    let around = line.clone();
+    let mut trail = Trail { line, span, metrics, method, route: matched, uri, started, status: None, cause: None };
+    let answered = next.run(request).instrument(around);
     let mut response = match context {
         Some(context) => answered.with_context(context).await,
         None => answered.await,
     };
-    trail.status = Some(response.status().as_u16());
+    trail.status = Some(response.status());
+    trail.cause = response.extensions().get::<Cause>().copied();
     response.headers_mut().insert(REQUEST_ID, id);
     response
 }
@@ -75,6 +97,15 @@ pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<B
 /// The route, without anything of the request's own.
 fn template(path: Option<&MatchedPath>) -> &str {
     path.map_or("unmatched", MatchedPath::as_str)
+}
+
+/// What a client calls something, as the log has it: not without end, and without what may be a key.
+fn shown(text: &str) -> String {
+    let text = without_keys(text);
+    match text.char_indices().nth(MAX_SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
 }
 
 /// Name the caller's key in the request's log lines.
@@ -85,7 +116,7 @@ pub(super) fn note_key(name: &str) {
 /// Name the scene in the request's log lines.
 pub(super) fn note_scene(scene_id: Option<&str>) {
     if let Some(scene_id) = scene_id {
-        Span::current().record("scene_id", field::debug(scene_id));
+        Span::current().record("scene_id", scene_id);
     }
 }
 

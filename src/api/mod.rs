@@ -32,7 +32,7 @@ pub use app::App;
 pub use cors::CorsOrigins;
 pub use document::{openapi, openapi_json};
 pub use router::router;
-pub use server::run;
+pub use server::{Server, run};
 pub use settings::ServerSettings;
 
 pub use crate::workers::Engine;

@@ -27,6 +27,7 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let kind = self.kind();
+        let cause = self.cause();
         let retry_after = comes_again(kind).then(|| seconds(&self));
         let close = match kind {
             // The rest of the body may still be on its way.
@@ -36,6 +37,8 @@ impl IntoResponse for Problem {
             _ => false,
         };
         let mut response = (status, Json(self)).into_response();
+        // For the log.
+        response.extensions_mut().insert(cause);
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
         if kind == ProblemKind::Unauthorized {

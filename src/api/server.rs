@@ -1,6 +1,6 @@
 //! The service from its start to its end.
 
-use core::pin::pin;
+use core::pin::{Pin, pin};
 use core::time::Duration;
 use std::io;
 use std::sync::Arc;
@@ -25,10 +25,52 @@ const RUNNING_SHARE: f64 = 0.9;
 /// How long a cancelled computation is waited for where the time for draining is over. Cancelling frees a core within 20 ms.
 const LAST_LOOK: Duration = Duration::from_secs(1);
 
+/// A service that has all it needs but a place to listen: nobody can reach it, and it has taken no job.
+pub struct Server {
+    app: Arc<App>,
+    certificates: Option<Certificates>,
+    callbacks: Option<CallbackDelivery>,
+}
+
+impl Server {
+    /// Read the files, open the store of jobs, start the threads. `None` where `shutdown` was done before that: a store that
+    /// can't be reached is not waited for.
+    ///
+    /// # Errors
+    /// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
+    pub async fn open(
+        settings: ServerSettings,
+        engine: Engine,
+        shutdown: Pin<&mut impl Future<Output = ()>>,
+    ) -> io::Result<Option<Self>> {
+        let certificates = Certificates::read(&settings.tls).map_err(io::Error::other)?;
+        let app = tokio::select! {
+            app = App::start(settings, engine) => Arc::new(app?),
+            () = shutdown => return Ok(None),
+        };
+        let (store, metrics) = (Arc::clone(&app.store), Arc::clone(&app.metrics));
+        let callbacks = CallbackDelivery::new(store, &app.settings.jobs, jobs::message, metrics);
+        Ok(Some(Self { app, certificates, callbacks: callbacks.map_err(io::Error::other)? }))
+    }
+
+    /// Serve on `listener` until `shutdown` is done; then drain and return.
+    pub async fn serve(self, listener: TcpListener, shutdown: impl Future<Output = ()>) {
+        let Self { app, certificates, callbacks } = self;
+        let watched = Arc::clone(&app);
+        let _watching = AbortOnDropHandle::new(tokio::spawn(async move { watched.watch_keys().await }));
+        let background = Background::begin(&app, callbacks);
+        let acceptor = certificates.as_ref().map(Certificates::acceptor);
+        let _current = certificates.map(|own| AbortOnDropHandle::new(tokio::spawn(own.keep_current())));
+        let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
+        connections.serve_until(shutdown).await;
+        drain(&app, connections, &background).await;
+    }
+}
+
 /// Serve on `listener` until `shutdown` is done; then drain and return.
 ///
 /// # Errors
-/// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
+/// Those of [`Server::open`].
 pub async fn run(
     listener: TcpListener,
     settings: ServerSettings,
@@ -40,7 +82,7 @@ pub async fn run(
 /// [`run`] with other computations than the planner's.
 ///
 /// # Errors
-/// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
+/// Those of [`Server::open`].
 pub async fn run_with(
     listener: TcpListener,
     settings: ServerSettings,
@@ -48,20 +90,9 @@ pub async fn run_with(
     shutdown: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let mut shutdown = pin!(shutdown);
-    let certificates = Certificates::read(&settings.tls).map_err(io::Error::other)?;
-    let app = tokio::select! {
-        app = App::start(settings, engine) => Arc::new(app?),
-        // A store that can't be reached is not waited for.
-        () = &mut shutdown => return Ok(()),
-    };
-    let watched = Arc::clone(&app);
-    let _watching = AbortOnDropHandle::new(tokio::spawn(async move { watched.watch_keys().await }));
-    let background = Background::begin(&app)?;
-    let acceptor = certificates.as_ref().map(Certificates::acceptor);
-    let _current = certificates.map(|own| AbortOnDropHandle::new(tokio::spawn(own.keep_current())));
-    let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
-    connections.serve_until(shutdown).await;
-    drain(&app, connections, &background).await;
+    if let Some(server) = Server::open(settings, engine, shutdown.as_mut()).await? {
+        server.serve(listener, shutdown).await;
+    }
     Ok(())
 }
 
@@ -76,20 +107,16 @@ struct Background {
 }
 
 impl Background {
-    /// # Errors
-    /// If the system gives no client for callbacks.
-    fn begin(app: &App) -> io::Result<Self> {
+    fn begin(app: &App, delivery: Option<CallbackDelivery>) -> Self {
         let (jobs, over) = (TaskTracker::new(), CancellationToken::new());
         jobs.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
         jobs.close();
         let (callbacks, silence) = (TaskTracker::new(), CancellationToken::new());
-        let (store, metrics) = (Arc::clone(&app.store), Arc::clone(&app.metrics));
-        let delivery = CallbackDelivery::new(store, &app.settings.jobs, jobs::message, metrics);
-        if let Some(delivery) = delivery.map_err(io::Error::other)? {
+        if let Some(delivery) = delivery {
             callbacks.spawn(delivery.run(silence.clone().cancelled_owned()));
         }
         callbacks.close();
-        Ok(Self { jobs, over, callbacks, silence })
+        Self { jobs, over, callbacks, silence }
     }
 }
 

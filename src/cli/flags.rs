@@ -59,3 +59,27 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
         Self::augment_args(command)
     }
 }
+
+/// The same flags, but not in the help: that of another command lists them.
+#[derive(Debug, Default)]
+pub(super) struct Unlisted<A>(pub(super) A);
+
+impl<A: FromArgMatches> FromArgMatches for Unlisted<A> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        A::from_arg_matches(matches).map(Self)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        self.0.update_from_arg_matches(matches)
+    }
+}
+
+impl<A: Args> Args for Unlisted<A> {
+    fn augment_args(command: Command) -> Command {
+        A::augment_args(command).mut_args(|arg| arg.hide(true))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}

@@ -2,43 +2,92 @@
 
 use core::time::Duration;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::path::PathBuf;
 
 use clap::Args;
+use reqwest::{ClientBuilder, StatusCode};
+use serde_json::Value;
 
 use super::Failure;
-use crate::config::{self, Config, Stated};
+use super::text::plain;
+use crate::config::{self, Config, SETTINGS, Stated};
 use crate::jobs::{client_builder, client_builder_with, innermost, trusted_roots};
 use crate::tls::unverified_client;
+use crate::wire::ProblemKind;
 
 /// How long the service may take to say that it is ready.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// How much of an answer is read: a problem document has some hundred bytes.
+const MAX_ANSWER: usize = 4096;
+
+/// Why nobody may listen where the settings say.
+const ELSEWHERE: &str = "; a service that was started with --listen or --config is asked with the same flag";
+
 /// The arguments of `healthcheck`.
 #[derive(Debug, Args)]
 pub(super) struct Healthcheck {
-    /// What to ask, a whole address such as http://127.0.0.1:8080/readyz; that of the place where `serve` would listen where nothing is said
-    #[arg(long)]
+    /// What to ask, a whole address such as http://127.0.0.1:8080/readyz; without it, the service of this machine that has the
+    /// settings of the environment, by HTTP or TLS
+    #[arg(long, conflicts_with_all = ["listen", "config"])]
     url: Option<String>,
+    /// Where the service listens, as it was said to `serve` [env: SINGULATE_LISTEN]
+    #[arg(long, value_name = "ADDR:PORT")]
+    listen: Option<String>,
+    /// The file with the service's settings, as it was said to `serve` [env: SINGULATE_CONFIG]
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
 }
 
 impl Healthcheck {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let (url, client) = match self.url {
-            Some(url) => (url, client_builder(trusted_roots())),
-            // Nobody but this machine is asked, so it does not matter what the certificate says.
-            None => (
-                own_url(&config::load(&Stated::default(), std::env::vars_os())?),
-                client_builder_with(unverified_client()),
-            ),
-        };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
-        match runtime.block_on(ask(client, &url)) {
-            Ok(status) if status.is_success() => Ok(()),
-            Ok(status) => Err(Failure::Broken(format!("{url}: {status}"))),
-            Err(error) if error.is_builder() => Err(Failure::Refused(format!("{url}: not a URL"))),
-            Err(error) => Err(Failure::Broken(format!("{url}: {}", innermost(&error)))),
+        match self.url {
+            Some(url) => runtime.block_on(ask(client_builder(trusted_roots()), &url, ""))?.outcome(&url),
+            None => {
+                let listen = SETTINGS.iter().find(|setting| setting.name == "listen").zip(self.listen);
+                let stated = Stated { config: self.config, flags: listen.into_iter().collect() };
+                runtime.block_on(ask_this_machine(&config::load(&stated, std::env::vars_os())?))
+            }
         }
+    }
+}
+
+/// Ask the service that has these settings. What its flags said of TLS is not known here, but its answer tells.
+async fn ask_this_machine(config: &Config) -> Result<(), Failure> {
+    // Nobody but this machine is asked, so it does not matter what the certificate says.
+    let client = || client_builder_with(unverified_client());
+    let url = own_url(config);
+    let answer = ask(client(), &url, ELSEWHERE).await?;
+    match url.strip_prefix("http://") {
+        Some(rest) if answer.wants_tls() => {
+            let url = format!("https://{rest}");
+            ask(client(), &url, ELSEWHERE).await?.outcome(&url)
+        }
+        _ => answer.outcome(&url),
+    }
+}
+
+/// What came back.
+struct Reply {
+    status: StatusCode,
+    /// The problem document, if it is one.
+    problem: Value,
+}
+
+impl Reply {
+    /// True for the answer of a service of ours that speaks TLS to a question without.
+    fn wants_tls(&self) -> bool {
+        self.problem["type"] == ProblemKind::MalformedHttp.to_string()
+    }
+
+    fn outcome(&self, url: &str) -> Result<(), Failure> {
+        if self.status.is_success() {
+            return Ok(());
+        }
+        let detail = self.problem["detail"].as_str().map(|detail| format!(": {}", plain(detail))).unwrap_or_default();
+        Err(Failure::Broken(format!("{url}: {}{detail}", self.status)))
     }
 }
 
@@ -53,9 +102,33 @@ fn own_url(config: &Config) -> String {
     format!("{scheme}://{}/readyz", SocketAddr::new(ip, config.listen.port()))
 }
 
-async fn ask(client: reqwest::ClientBuilder, url: &str) -> Result<reqwest::StatusCode, reqwest::Error> {
-    let client = client.timeout(PATIENCE).build()?;
-    Ok(client.get(url).send().await?.status())
+/// What came back; where nobody listens, `elsewhere` says what helps.
+async fn ask(client: ClientBuilder, url: &str, elsewhere: &str) -> Result<Reply, Failure> {
+    exchange(client, url).await.map_err(|error| {
+        if error.is_builder() {
+            return Failure::Refused(format!("{url}: not a URL"));
+        }
+        let cause = innermost(&error).to_string();
+        let cure = if cause.contains("certificate") {
+            "; SSL_CERT_FILE=FILE names its authority, and without --url a certificate is not looked at"
+        } else if error.is_connect() {
+            elsewhere
+        } else {
+            ""
+        };
+        Failure::Broken(format!("{url}: {cause}{cure}"))
+    })
+}
+
+async fn exchange(client: ClientBuilder, url: &str) -> Result<Reply, reqwest::Error> {
+    let mut response = client.timeout(PATIENCE).build()?.get(url).send().await?;
+    let mut body = Vec::new();
+    while body.len() < MAX_ANSWER
+        && let Some(piece) = response.chunk().await?
+    {
+        body.extend_from_slice(&piece);
+    }
+    Ok(Reply { status: response.status(), problem: serde_json::from_slice(&body).unwrap_or_default() })
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod verify;
 
 use clap::{Parser, Subcommand};
 
+use self::flags::Unlisted;
 use crate::api;
 use crate::config::{self, Config, ConfigError, Stated};
 use crate::telemetry;
@@ -30,12 +31,14 @@ with every fault on stderr; 1 for anything else.";
 
 /// Plans the fewest relocations that free an object on a crowded table, and proves it.
 ///
-/// Without a command it serves HTTP, as `singulate serve` does.
+/// Without a command it serves HTTP, as `singulate serve` does, and takes the flags of `serve`.
 #[derive(Debug, Parser)]
-#[command(name = "singulate", version, after_help = EXIT_CODES)]
+#[command(name = "singulate", version, after_help = EXIT_CODES, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    #[command(flatten)]
+    serve: Unlisted<serve::Serve>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -93,7 +96,7 @@ impl Cli {
     /// # Errors
     /// [`Failure`], with what to print on stderr.
     pub fn run(self) -> Result<(), Failure> {
-        match self.command.unwrap_or_else(|| Command::Serve(serve::Serve::default())) {
+        match self.command.unwrap_or(Command::Serve(self.serve.0)) {
             Command::Serve(command) => command.run(),
             Command::Plan(command) => command.run(),
             Command::Verify(command) => command.run(),
@@ -111,5 +114,13 @@ impl Cli {
 fn configure(stated: &Stated) -> Result<Config, Failure> {
     let config = config::load(stated, std::env::vars_os())?;
     telemetry::init(&config.log, config.log_format, None).map_err(Failure::Broken)?;
+    warn_of_variables(&config);
     Ok(config)
+}
+
+/// What looks like a setting and is none is told, and does no harm.
+fn warn_of_variables(config: &Config) {
+    for variable in &config.unknown_variables {
+        tracing::warn!("{variable}");
+    }
 }

@@ -1,19 +1,24 @@
 //! `singulate serve`.
 
+use core::pin::pin;
+use std::io::{self, ErrorKind};
 use std::net::SocketAddr;
 use std::path::Path;
 
 use clap::Args;
-use tokio::net::TcpListener;
+use tokio::net::TcpSocket;
 
 use super::flags::Flags;
-use super::{Failure, open_files, output};
-use crate::api::{self, ServerSettings};
+use super::{Failure, open_files, output, warn_of_variables};
+use crate::api::{Engine, Server, ServerSettings};
 use crate::config::{self, Config};
 use crate::telemetry;
 
 /// A plate between two others and a fixed vase: small enough for one line, and something has to move.
 const SCENE: &str = include_str!("example.json");
+
+/// Connections that the system holds until they are accepted.
+const BACKLOG: u32 = 1024;
 
 /// The arguments of `serve`.
 #[derive(Debug, Default, Args)]
@@ -28,6 +33,7 @@ impl Serve {
         config.check_service()?;
         let traces = telemetry::init(&config.log, config.log_format, config.otlp_endpoint.as_ref());
         let traces = traces.map_err(Failure::Broken)?;
+        warn_of_variables(&config);
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
         let served = runtime.block_on(serve(config));
@@ -40,18 +46,49 @@ impl Serve {
     }
 }
 
+/// The place is taken first, so that one which is taken already is told at once. But nobody is let in, and nothing says
+/// that there is a service, before there is one.
 async fn serve(mut config: Config) -> Result<(), Failure> {
-    let broken = |error: std::io::Error| Failure::Broken(format!("{}: {error}", config.listen));
-    let listener = TcpListener::bind(config.listen).await.map_err(broken)?;
-    let shutdown = stop_signal().map_err(broken)?;
-    let listen = listener.local_addr().map_err(broken)?;
+    let cannot_listen = |error| cannot_listen(config.listen, &error);
+    let broken = |error: std::io::Error| Failure::Broken(error.to_string());
+    let place = place(config.listen).map_err(cannot_listen)?;
+    let listen = place.local_addr().map_err(cannot_listen)?;
+    let mut shutdown = pin!(stop_signal().map_err(broken)?);
     config.server.connections = open_files::room_for(config.server.connections);
     if let Some(warning) = config.warning() {
         tracing::warn!(%listen, "{warning}");
     }
-    tracing::info!(%listen, threads = config.server.threads, "serving");
-    output::print(&greeting(listen, &config.server))?;
-    api::run(listener, config.server, shutdown).await.map_err(|error| Failure::Broken(error.to_string()))
+    let (greeting, threads) = (greeting(listen, &config.server), config.server.threads);
+    tracing::info!("opening the store of jobs");
+    let server = Server::open(config.server, Engine::default(), shutdown.as_mut()).await.map_err(broken)?;
+    let Some(server) = server else { return Ok(()) };
+    let listener = place.listen(BACKLOG).map_err(cannot_listen)?;
+    tracing::info!(%listen, threads, "serving");
+    output::print(&greeting)?;
+    server.serve(listener, shutdown).await;
+    Ok(())
+}
+
+/// A socket that has its address and lets nobody in yet.
+fn place(listen: SocketAddr) -> io::Result<TcpSocket> {
+    let socket = if listen.is_ipv4() { TcpSocket::new_v4() } else { TcpSocket::new_v6() }?;
+    // Connections of the process before us may still be about to end.
+    socket.set_reuseaddr(true)?;
+    socket.bind(listen)?;
+    Ok(socket)
+}
+
+/// Why nobody can listen there, and what helps.
+fn cannot_listen(listen: SocketAddr, error: &io::Error) -> Failure {
+    let cure = match error.kind() {
+        ErrorKind::AddrInUse => "; another program listens there: choose another port, or 0 for any free one",
+        ErrorKind::AddrNotAvailable => {
+            "; this machine has no such address: 127.0.0.1 is for this machine alone, 0.0.0.0 for others too"
+        }
+        ErrorKind::PermissionDenied => "; a port below 1024 needs a right of its own: choose a greater one",
+        _ => "",
+    };
+    Failure::Broken(format!("--listen {listen}: {error}{cure}"))
 }
 
 /// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers. Asked a second time, it ends at

@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::Config;
+use super::closest::closest;
 use super::setting::Setting;
 use super::settings::SETTINGS;
 
@@ -50,16 +51,26 @@ pub struct Stated {
 #[error("{}", .0.join("\n"))]
 pub struct ConfigError(pub Vec<String>);
 
+impl ConfigError {
+    /// The same, and variables that may have been meant for what is missing.
+    #[must_use]
+    pub(super) fn beside(self, unknown_variables: &[String]) -> Self {
+        Self(self.0.into_iter().chain(unknown_variables.iter().map(|line| format!("warning: {line}"))).collect())
+    }
+}
+
 /// The configuration from flags, the variables of the environment and the file that either of them names.
 ///
 /// # Errors
-/// Everything that is wrong: unknown keys and variables, values that can't be, a file that can't be read.
+/// Everything that is wrong: unknown keys, values that can't be, a file that can't be read. An unknown variable is no error:
+/// a container manager may have set it. It becomes one of `unknown_variables`.
 pub fn load(
     stated: &Stated,
     environment: impl IntoIterator<Item = (OsString, OsString)>,
 ) -> Result<Config, ConfigError> {
     let mut faults = Vec::new();
-    let (file, variables) = variables(environment, &mut faults);
+    let mut unknown = Vec::new();
+    let (file, variables) = variables(environment, &mut faults, &mut unknown);
     let mut config = Config::default();
     let mut apply = |setting: &Setting, source: &Source, text: &str, faults: &mut Vec<String>| {
         if let Err(detail) = setting.set(&mut config, text) {
@@ -77,17 +88,20 @@ pub fn load(
     for (setting, text) in &stated.flags {
         apply(setting, &Source::Flag(setting.flag()), text, &mut faults);
     }
-    if faults.is_empty() { Ok(config) } else { Err(ConfigError(faults)) }
+    if !faults.is_empty() {
+        return Err(ConfigError(faults).beside(&unknown));
+    }
+    Ok(Config { unknown_variables: unknown, ..config })
 }
 
 /// The file's path and the settings among the environment's variables, in the order of [`SETTINGS`].
 fn variables(
     environment: impl IntoIterator<Item = (OsString, OsString)>,
     faults: &mut Vec<String>,
+    unknown: &mut Vec<String>,
 ) -> (Option<PathBuf>, Vec<(&'static Setting, String)>) {
     let mut file = None;
     let mut found = Vec::new();
-    let mut unknown = Vec::new();
     for (name, value) in environment {
         let Some(name) = name.to_str().filter(|name| name.starts_with(PREFIX)) else { continue };
         if name == CONFIG_VARIABLE {
@@ -98,14 +112,28 @@ fn variables(
                 Err(_) => faults.push(format!("{name}: the value is not UTF-8")),
             }
         } else if !OF_CLIENTS.contains(&name) {
-            unknown.push(format!("{name}: there is no such setting"));
+            unknown.push(nothing_reads(name));
         }
     }
     // The environment has no order of its own.
     unknown.sort_unstable();
-    faults.append(&mut unknown);
     found.sort_unstable();
     (file, found.into_iter().map(|(at, text)| (&SETTINGS[at], text)).collect())
+}
+
+/// Why a variable changes nothing, and what was probably meant. Its value may be a secret.
+fn nothing_reads(name: &str) -> String {
+    let rest = name.strip_prefix(PREFIX).unwrap_or(name);
+    let known = SETTINGS.iter().map(Setting::variable).chain([CONFIG_VARIABLE.to_owned()]);
+    let known = known.map(|variable| variable.trim_start_matches(PREFIX).to_owned());
+    let meant = match closest(rest, known) {
+        _ if rest == "PORT" || rest.starts_with("PORT_") || rest.starts_with("SERVICE_") => {
+            "; container managers set it beside a service of this name; where to listen is SINGULATE_LISTEN".to_owned()
+        }
+        Some(setting) => format!("; did you mean {PREFIX}{setting}?"),
+        None => String::new(),
+    };
+    format!("{name}: there is no such setting, so it changes nothing{meant}")
 }
 
 /// What is wrong, and in which line, but not the line itself: it may hold a secret.
@@ -130,7 +158,9 @@ fn read(path: &Path, faults: &mut Vec<String>) -> Vec<(&'static Setting, Source,
     for (key, value) in table {
         let source = Source::File(path.to_owned(), key.clone());
         let Some(setting) = SETTINGS.iter().find(|setting| setting.name == key) else {
-            faults.push(format!("{source}: there is no such setting"));
+            let meant = closest(&key, SETTINGS.iter().map(|setting| setting.name.to_owned()));
+            let meant = meant.map(|name| format!("; did you mean {name}?")).unwrap_or_default();
+            faults.push(format!("{source}: there is no such setting{meant}"));
             continue;
         };
         match value {
@@ -188,12 +218,40 @@ mod tests {
         let expected = [
             "--max-objects: 'many' is not a whole number from 1 to 1000000".to_owned(),
             "SINGULATE_THREADS: '0' is not a whole number from 1 to 1000000".to_owned(),
-            "SINGULATE_TREADS: there is no such setting".to_owned(),
             format!("listen in {at}: 'here' is not an address and port like 0.0.0.0:8080"),
             format!("queue in {at}: a boolean is no value for this setting"),
-            format!("thread in {at}: there is no such setting"),
+            format!("thread in {at}: there is no such setting; did you mean threads?"),
+            // Perhaps it was meant for one of these.
+            "warning: SINGULATE_TREADS: there is no such setting, so it changes nothing; did you mean SINGULATE_THREADS?"
+                .to_owned(),
         ];
         assert_eq!(faults, expected);
+    }
+
+    #[test]
+    fn an_unknown_variable_is_named_with_the_one_that_was_meant_and_without_its_value() {
+        let list = [
+            ("SINGULATE_TREADS", "2"),
+            ("SINGULATE_PORT", "tcp://10.0.0.1:8080"),
+            ("SINGULATE_CALLBACK_SECRETS", "quiet"),
+            ("SINGULATE_KEY", "sgl_"),
+            ("SINGULATE_CONFIGS", "x"),
+            ("SINGULATE_", "x"),
+            ("SINGULATED", "x"),
+        ];
+        let config = load(&Stated::default(), variables(&list)).unwrap();
+        let unknown = |name: &str, rest: &str| format!("{name}: there is no such setting, so it changes nothing{rest}");
+        let expected = [
+            unknown("SINGULATE_", ""),
+            unknown("SINGULATE_CALLBACK_SECRETS", "; did you mean SINGULATE_CALLBACK_SECRET?"),
+            unknown("SINGULATE_CONFIGS", "; did you mean SINGULATE_CONFIG?"),
+            unknown(
+                "SINGULATE_PORT",
+                "; container managers set it beside a service of this name; where to listen is SINGULATE_LISTEN",
+            ),
+            unknown("SINGULATE_TREADS", "; did you mean SINGULATE_THREADS?"),
+        ];
+        assert_eq!(config.unknown_variables, expected);
     }
 
     #[test]

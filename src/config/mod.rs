@@ -1,5 +1,7 @@
 //! What the operator may set, and from where: flag before variable before file before default.
 
+mod addresses;
+mod closest;
 mod load;
 mod setting;
 mod settings;
@@ -25,12 +27,14 @@ pub struct Config {
     pub server: ServerSettings,
     /// That everybody may call, wherever the service listens.
     pub insecure: bool,
-    /// Which log lines are written, as `tracing` filters are written.
+    /// Which log lines are written: a level, and levels for parts of the program.
     pub log: String,
     /// How they are written.
     pub log_format: LogFormat,
     /// Where traces go, if anywhere.
     pub otlp_endpoint: Option<Endpoint>,
+    /// Variables that look like settings and are none, one sentence each.
+    pub unknown_variables: Vec<String>,
 }
 
 impl Config {
@@ -54,7 +58,7 @@ impl Config {
             None => faults.push(self.without_keys()),
         }
         faults.extend(Certificates::read(&self.server.tls).err().map(|error| error.to_string()));
-        if faults.is_empty() { Ok(()) } else { Err(ConfigError(faults)) }
+        if faults.is_empty() { Ok(()) } else { Err(ConfigError(faults).beside(&self.unknown_variables)) }
     }
 
     /// Why there is no service where others could reach it and nobody said who may.
@@ -84,12 +88,13 @@ impl Config {
 impl Default for Config {
     fn default() -> Self {
         Self {
-            listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
+            listen: SocketAddr::from((Ipv4Addr::LOCALHOST, addresses::DEFAULT_PORT)),
             server: ServerSettings::default(),
             insecure: false,
             log: "info".to_owned(),
             log_format: LogFormat::default(),
             otlp_endpoint: None,
+            unknown_variables: Vec::new(),
         }
     }
 }

@@ -4,6 +4,7 @@ use core::time::Duration;
 use std::path::PathBuf;
 
 use super::Config;
+use super::addresses;
 use super::setting::{NeededBy, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
@@ -43,8 +44,7 @@ pub static SETTINGS: &[Setting] = &[
         help: "Where to listen; port 0 takes any free one",
         value: Value::Other {
             set: |config, text| {
-                config.listen =
-                    text.parse().map_err(|_| format!("'{text}' is not an address and port like 0.0.0.0:8080"))?;
+                config.listen = addresses::listen(text)?;
                 Ok(())
             },
             get: |config| config.listen.to_string(),
@@ -115,12 +115,7 @@ pub static SETTINGS: &[Setting] = &[
         help: "Where jobs are kept: sqlite:PATH, sqlite::memory: or postgres://…",
         value: Value::Other {
             set: |config, text| {
-                if !["sqlite:", "postgres:", "postgresql:"].iter().any(|scheme| text.starts_with(scheme)) {
-                    // The rest may hold a password.
-                    let scheme = text.split_once(':').map_or("", |(scheme, _)| scheme);
-                    return Err(format!("an address that begins with '{scheme}:' is neither sqlite: nor postgres:"));
-                }
-                text.clone_into(&mut config.server.jobs.url);
+                config.server.jobs.url = addresses::jobs_url(text)?;
                 Ok(())
             },
             get: |config| config.server.jobs.url.clone(),
@@ -241,7 +236,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "log",
         needed_by: NeededBy::Planning,
         placeholder: "FILTER",
-        help: "Which log lines go to stderr, such as warn or info,singulate=debug",
+        help: "Which log lines go to stderr: off, error, warn, info, debug or trace, and levels for parts, such as info,singulate=debug",
         value: Value::Other {
             set: |config, text| {
                 telemetry::filter(text)?;

@@ -94,8 +94,10 @@ impl Held {
 
     /// Queue the job again, as if nobody had begun.
     pub(super) async fn hand_back(&self) {
-        if let Err(error) = self.store.hand_back(self.claim, Timestamp::now()).await {
-            self.warn("the job could not be handed back; its lease will end", Some(&error));
+        match self.store.hand_back(self.claim, Timestamp::now()).await {
+            Ok(true) => tracing::info!(job = %self.claim.id, "job handed back"),
+            Ok(false) => {}
+            Err(error) => self.warn("the job could not be handed back; its lease will end", Some(&error)),
         }
     }
 

@@ -8,6 +8,7 @@ mod callback;
 mod held;
 mod hints;
 mod job;
+mod log;
 mod pause;
 mod runner;
 mod settings;
@@ -24,6 +25,7 @@ pub use callback::{
 pub(crate) use callback::{client_builder_with, innermost};
 pub use hints::{Hints, Watcher};
 pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
+pub use log::job_ended;
 pub use runner::Runner;
 pub use settings::JobSettings;
 pub use sql::{OpenError, open};

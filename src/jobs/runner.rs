@@ -1,5 +1,6 @@
 //! Claims jobs as long as there is room for them, and sees each to its end.
 
+use core::mem;
 use core::time::Duration;
 use std::collections::HashMap;
 use std::io;
@@ -13,6 +14,7 @@ use tokio_util::task::TaskTracker;
 
 use super::held::Held;
 use super::job::{End, JobId};
+use super::log::Lines;
 use super::pause::Pause;
 use super::settings::JobSettings;
 use super::store::{Claimed, Store};
@@ -131,15 +133,16 @@ impl Runner {
         }
     }
 
-    async fn attempt(self: Arc<Self>, claimed: Claimed, slot: OwnedSemaphorePermit, over: CancellationToken) {
-        let Claimed { claim, body, attempt, created_at } = claimed;
-        self.metrics.attempt(attempt);
-        self.metrics.waited(Queue::Job, Timestamp::now().since(created_at));
+    async fn attempt(self: Arc<Self>, mut claimed: Claimed, slot: OwnedSemaphorePermit, over: CancellationToken) {
+        let claim = claimed.claim;
+        self.metrics.attempt(claimed.attempt);
+        self.metrics.waited(Queue::Job, Timestamp::now().since(claimed.created_at));
         let (watcher, mut incumbent) = watch::channel(None);
         let held = Held::new(Arc::clone(&self.store), claim, self.lease);
-        let Ok(work) = Work::begin(body, &self.pool, &self.tools, watcher) else {
+        let Ok(work) = Work::begin(mem::take(&mut claimed.body), &self.pool, &self.tools, watcher) else {
             return held.hand_back().await;
         };
+        let lines = Lines::begin(&claimed, work.scene_id());
         let cancelled = Arc::<AtomicBool>::default();
         self.running().insert(claim.id, Running { recall: work.recall(), cancelled: Arc::clone(&cancelled) });
         let ended = tokio::select! {
@@ -152,14 +155,16 @@ impl Runner {
             }
         };
         self.running().remove(&claim.id);
-        if let Some(end) = ended {
+        if let Some(concluded) = ended {
             let best = *incumbent.borrow();
-            if held.finish(best, &end, &over).await {
-                self.metrics.job_ended(match end {
+            if held.finish(best, &concluded.end, &over).await {
+                let state = match concluded.end {
                     _ if cancelled.load(Ordering::Relaxed) => Ended::Cancelled,
                     End::Succeeded(_) => Ended::Succeeded,
                     End::Failed(_) => Ended::Failed,
-                });
+                };
+                lines.end(state, &concluded);
+                self.metrics.job_ended(state);
             }
         }
         drop(slot);

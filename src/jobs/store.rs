@@ -64,6 +64,8 @@ pub struct Claim {
 pub struct Claimed {
     /// The right to it.
     pub claim: Claim,
+    /// Who handed it in.
+    pub owner: Owner,
     /// The planning request as JSON.
     pub body: Vec<u8>,
     /// Which attempt this is, from 1.
@@ -140,13 +142,13 @@ pub enum Delivery {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Swept {
     /// Lost by their workers and queued again.
-    pub requeued: u64,
+    pub requeued: Vec<JobId>,
     /// Ended three workers.
     pub poisoned: Vec<JobId>,
     /// Lost by their workers after they were cancelled.
-    pub cancelled: u64,
+    pub cancelled: Vec<JobId>,
     /// Waited too long.
-    pub expired: u64,
+    pub expired: Vec<JobId>,
     /// Forgotten.
     pub forgotten: u64,
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tokio::time::{MissedTickBehavior, interval};
 
+use super::log::job_ended;
 use super::store::{Store, Swept};
 use super::timestamp::Timestamp;
 use crate::metrics::{Ended, Metrics};
@@ -21,26 +22,26 @@ pub(super) async fn sweep(store: Arc<dyn Store>, metrics: Arc<Metrics>, lease: D
     due.set_missed_tick_behavior(MissedTickBehavior::Delay);
     while draining.unless_begun(due.tick()).await.is_some() {
         match store.sweep(Timestamp::now()).await {
-            Ok(swept) => {
-                tell(&swept);
-                count(&swept, &metrics);
-            }
+            Ok(swept) => tell(&swept, &metrics),
             Err(error) => tracing::warn!(%error, "the store could not be swept"),
         }
     }
 }
 
-fn tell(swept: &Swept) {
+/// Log and count what the sweep has changed, job by job.
+fn tell(swept: &Swept, metrics: &Metrics) {
+    for job in &swept.requeued {
+        tracing::warn!(%job, "job lost its worker and is queued again");
+    }
     for job in &swept.poisoned {
-        tracing::error!(%job, "the job ended three workers; it is not tried again");
+        tracing::error!(%job, "job ended three workers and is not tried again");
     }
-    if swept.requeued > 0 {
-        tracing::warn!(jobs = swept.requeued, "jobs lost their workers and are queued again");
+    let ended =
+        [(&swept.poisoned, Ended::Failed), (&swept.cancelled, Ended::Cancelled), (&swept.expired, Ended::Expired)];
+    for (jobs, state) in ended {
+        for job in jobs {
+            job_ended(*job, state);
+            metrics.job_ended(state);
+        }
     }
-}
-
-fn count(swept: &Swept, metrics: &Metrics) {
-    swept.poisoned.iter().for_each(|_| metrics.job_ended(Ended::Failed));
-    (0..swept.cancelled).for_each(|_| metrics.job_ended(Ended::Cancelled));
-    (0..swept.expired).for_each(|_| metrics.job_ended(Ended::Expired));
 }

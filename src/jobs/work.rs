@@ -3,13 +3,12 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use serde::Serialize;
 use tokio::sync::watch;
 
 use super::job::End;
 use crate::budget::{Budget, Incumbent};
 use crate::metrics::Metrics;
-use crate::wire::{AnswerBody, Glance, Problem, ProblemKind, RequestLimits, read_job};
+use crate::wire::{AnswerBody, Cause, Glance, Problem, ProblemKind, RequestLimits, VerdictWord, read_job};
 use crate::workers::{Engine, Outcome, Pending, Pool, Recall, Refused};
 
 /// The store has seen to the turns of owners; a job that it gave is not to wait for another's.
@@ -23,9 +22,35 @@ pub(super) struct Tools {
     pub(super) metrics: Arc<Metrics>,
 }
 
+/// An answer as it is kept.
+struct Written {
+    verdict: VerdictWord,
+    json: String,
+}
+
+/// How a worker's job ends, and the same in short.
+pub(super) struct Concluded {
+    pub(super) end: End,
+    pub(super) verdict: Option<VerdictWord>,
+    pub(super) cause: Option<Cause>,
+}
+
+impl From<Result<Written, Problem>> for Concluded {
+    fn from(outcome: Result<Written, Problem>) -> Self {
+        match outcome {
+            Ok(Written { verdict, json }) => Self { end: End::Succeeded(json), verdict: Some(verdict), cause: None },
+            Err(problem) => {
+                // A problem is made of strings and numbers.
+                let end = End::Failed(serde_json::to_string(&problem).unwrap_or_default());
+                Self { end, verdict: None, cause: Some(problem.cause()) }
+            }
+        }
+    }
+}
+
 /// A job that a worker has.
 pub(super) struct Work {
-    pending: Pending<Result<String, Problem>>,
+    pending: Pending<Result<Written, Problem>>,
     body: Arc<Vec<u8>>,
     glance: Glance,
 }
@@ -59,8 +84,13 @@ impl Work {
         self.pending.recall()
     }
 
+    /// The caller's name for the scene.
+    pub(super) fn scene_id(&self) -> Option<String> {
+        self.glance.scene_id.clone()
+    }
+
     /// How the job ends.
-    pub(super) async fn end(self) -> End {
+    pub(super) async fn end(self) -> Concluded {
         let ended = match self.pending.outcome().await {
             Outcome::Done(answer) => answer,
             // Only a planner that forgets the time is not waited for; nothing of what it knows is at hand.
@@ -70,11 +100,11 @@ impl Work {
                 Err(internal())
             }
         };
-        ended.map_or_else(|problem| failed(&problem), End::Succeeded)
+        ended.into()
     }
 }
 
-fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<String, Problem> {
+fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<Written, Problem> {
     // It was read before it was accepted; but that may have been another version, with other limits.
     let request = read_job(body, &tools.limits)?.plan;
     let answer = tools.engine.answer(&request, budget)?;
@@ -82,16 +112,12 @@ fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<String, Probl
     written(&AnswerBody::new(&request, &answer))
 }
 
-fn written(body: &impl Serialize) -> Result<String, Problem> {
-    serde_json::to_string(body).map_err(|error| {
+fn written(body: &AnswerBody) -> Result<Written, Problem> {
+    let json = serde_json::to_string(body).map_err(|error| {
         tracing::error!(%error, "an answer could not be written");
         internal()
-    })
-}
-
-fn failed(problem: &Problem) -> End {
-    // A problem is made of strings and numbers.
-    End::Failed(serde_json::to_string(problem).unwrap_or_default())
+    })?;
+    Ok(Written { verdict: body.verdict, json })
 }
 
 fn internal() -> Problem {

@@ -83,6 +83,16 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// A text of a client's without what may be a key in the wrong place: of each only [`PREFIX`] is left.
+pub fn without_keys(text: &str) -> String {
+    let (mut kept, mut rest) = (String::new(), text);
+    while let Some((before, after)) = rest.split_once(PREFIX) {
+        kept += &format!("{before}{PREFIX}…");
+        rest = after.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || "-_".contains(c));
+    }
+    kept + rest
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,6 +106,19 @@ mod tests {
         }
         for wrong in ["", &text[1..], &text[2..], &format!("{text}0"), &format!("{text}00"), &text.replace('b', "g")] {
             assert!(KeyDigest::read(wrong).is_none(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn what_may_be_a_key_is_left_out_of_a_text() {
+        let key = "sgl_47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU";
+        for (text, kept) in [
+            ("/v1/plans", "/v1/plans"),
+            (key, "sgl_…"),
+            (&format!("/v1/{key}/plans&key={key}"), "/v1/sgl_…/plans&key=sgl_…"),
+            ("/sgl_", "/sgl_…"),
+        ] {
+            assert_eq!(without_keys(text), kept);
         }
     }
 

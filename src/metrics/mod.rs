@@ -7,8 +7,10 @@
 mod buckets;
 mod families;
 mod labels;
+mod milliseconds;
 mod recorder;
 
 pub use families::MEDIA_TYPE;
 pub use labels::{CallbackOutcome, Ended, Queue, Refusal, StoreOutcome};
+pub use milliseconds::milliseconds;
 pub use recorder::{Metrics, Open};

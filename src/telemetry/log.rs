@@ -1,8 +1,26 @@
 //! Log lines on stderr: stdout belongs to answers.
 
-use std::io;
+use std::borrow::Cow;
+use std::io::{self, Write};
 
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::{LevelFilter, Targets};
+use tracing_subscriber::fmt::layer;
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::registry;
+use tracing_subscriber::util::SubscriberInitExt;
+
+/// The levels that a filter may name, the fewest lines first.
+const LEVELS: [(&str, LevelFilter); 6] = [
+    ("off", LevelFilter::OFF),
+    ("error", LevelFilter::ERROR),
+    ("warn", LevelFilter::WARN),
+    ("info", LevelFilter::INFO),
+    ("debug", LevelFilter::DEBUG),
+    ("trace", LevelFilter::TRACE),
+];
+
+/// The level where a filter names none for all. Only `off` makes the service silent, not a part that is mistyped.
+const DEFAULT: LevelFilter = LevelFilter::INFO;
 
 /// How log lines are written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -14,20 +32,144 @@ pub enum LogFormat {
     Json,
 }
 
-/// Which lines are written.
+/// Which lines are written: a level for all, and levels for parts of the program, `PART=LEVEL`, separated by commas.
 ///
 /// # Errors
-/// What is wrong with the filter.
-pub fn filter(text: &str) -> Result<EnvFilter, String> {
-    EnvFilter::try_new(text).map_err(|error| format!("'{text}' is no log filter: {error}"))
+/// What is wrong with the filter, and the levels that there are.
+pub fn filter(text: &str) -> Result<Targets, String> {
+    let (mut all, mut parts) = (DEFAULT, Targets::new());
+    for entry in text.split(',').map(str::trim) {
+        match entry.rsplit_once('=') {
+            None => all = level(entry)?,
+            Some((part, word)) => parts = parts.with_target(path(part.trim())?, level(word.trim())?),
+        }
+    }
+    Ok(parts.with_default(all))
+}
+
+fn level(word: &str) -> Result<LevelFilter, String> {
+    let found = LEVELS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
+    found.map(|(_, level)| *level).ok_or_else(|| {
+        let [first @ .., last] = LEVELS.map(|(name, _)| name);
+        let first = first.join(", ");
+        format!(
+            "'{word}' is no level: {first} or {last}; for a part of the program PART=LEVEL, such as singulate=debug"
+        )
+    })
+}
+
+/// The path of a module.
+fn path(part: &str) -> Result<&str, String> {
+    let letter = |c: char| c.is_ascii_alphanumeric() || "_-:".contains(c);
+    if part.is_empty() || !part.chars().all(letter) {
+        return Err(format!("'{part}' is no part of the program such as singulate or singulate::jobs"));
+    }
+    Ok(part)
 }
 
 /// Begin to log.
 pub(super) fn init(log: &str, format: LogFormat) -> Result<(), String> {
-    let lines = tracing_subscriber::fmt().with_env_filter(filter(log)?).with_writer(io::stderr);
+    let filter = filter(log)?;
     let begun = match format {
-        LogFormat::Text => lines.with_ansi(false).try_init(),
-        LogFormat::Json => lines.json().flatten_event(true).try_init(),
+        LogFormat::Text => registry().with(layer().with_ansi(false).with_writer(io::stderr)).with(filter).try_init(),
+        LogFormat::Json => registry()
+            .with(layer().json().flatten_event(true).with_span_list(false).with_writer(|| JsonLines))
+            .with(filter)
+            .try_init(),
     };
     begun.map_err(|error| error.to_string())
+}
+
+/// Stderr for lines of JSON.
+struct JsonLines;
+
+impl Write for JsonLines {
+    /// Takes a whole line at a time, as the log gives it.
+    fn write(&mut self, line: &[u8]) -> io::Result<usize> {
+        io::stderr().write_all(&escaped(line))?;
+        Ok(line.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().flush()
+    }
+}
+
+/// The same JSON without DEL and the control characters U+0080 to U+009F, which JSON may hold as they are and terminals
+/// obey: within its strings, and they are nowhere else, each has an escape.
+fn escaped(line: &[u8]) -> Cow<'_, [u8]> {
+    let control = |at: usize| match (line[at], line.get(at + 1)) {
+        (0x7f, _) => Some((1, 0x7f)),
+        // U+0080 to U+009F in UTF-8.
+        (0xc2, Some(&code @ 0x80..=0x9f)) => Some((2, code)),
+        _ => None,
+    };
+    if (0..line.len()).all(|at| control(at).is_none()) {
+        return Cow::Borrowed(line);
+    }
+    let (mut text, mut at) = (Vec::with_capacity(line.len() + 16), 0);
+    while at < line.len() {
+        let length = match control(at) {
+            Some((length, code)) => {
+                text.extend(format!("\\u{code:04x}").bytes());
+                length
+            }
+            None => {
+                text.push(line[at]);
+                1
+            }
+        };
+        at += length;
+    }
+    Cow::Owned(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use tracing::Level;
+
+    use super::*;
+
+    #[test]
+    fn a_filter_is_a_level_for_all_and_levels_for_parts() {
+        let shown = |text: &str| {
+            let filter = filter(text).unwrap();
+            let ours =
+                [Level::WARN, Level::INFO, Level::DEBUG].map(|level| filter.would_enable("singulate::jobs", &level));
+            let others = [Level::WARN, Level::INFO, Level::DEBUG].map(|level| filter.would_enable("sqlx", &level));
+            (ours, others)
+        };
+        let (none, warn, info, debug) = ([false; 3], [true, false, false], [true, true, false], [true; 3]);
+        assert_eq!(shown("off"), (none, none));
+        assert_eq!(shown("WARN"), (warn, warn));
+        assert_eq!(shown("info,singulate=debug"), (debug, info));
+        assert_eq!(shown(" singulate = debug , warn "), (debug, warn));
+        assert_eq!(shown("singulate::jobs=off,warn"), (none, warn));
+        // What no entry names is as if nothing were said, so that a part which is mistyped silences nobody.
+        assert_eq!(shown("singulate=debug"), (debug, info));
+        assert_eq!(shown("singluate=debug"), (info, info));
+    }
+
+    #[test]
+    fn what_is_no_filter_is_told_with_the_levels_that_there_are() {
+        for text in
+            ["loud", "", "info,", "verbose,singulate=debug", "singulate", "singulate=loud", "singulate=", "3", "a b=c"]
+        {
+            let fault = filter(text).unwrap_err();
+            assert!(text == "a b=c" || fault.contains("off, error, warn, info, debug or trace"), "{text}: {fault}");
+        }
+        for text in ["=debug", "a b=debug", "[request]=debug", "a=b=debug"] {
+            assert!(filter(text).unwrap_err().contains("no part of the program"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_line_of_json_holds_no_control_character_and_says_the_same() {
+        let text = "plain é\u{7f}\u{80}\u{9b}31m\u{9f}\u{a0}€";
+        let line = serde_json::to_string(text).unwrap();
+        let written = String::from_utf8(escaped(line.as_bytes()).into_owned()).unwrap();
+        assert!(!written.chars().any(char::is_control), "{written:?}");
+        assert_eq!(serde_json::from_str::<String>(&written).unwrap(), text);
+        assert!(matches!(escaped("\"é€\"".as_bytes()), Cow::Borrowed(_)));
+    }
 }

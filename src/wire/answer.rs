@@ -1,5 +1,6 @@
 //! An answer as JSON.
 
+use core::fmt;
 use core::time::Duration;
 
 use nalgebra::Point2;
@@ -81,6 +82,13 @@ pub enum VerdictWord {
     NoSpace,
     /// The time limit came first, with no plan in hand.
     TimedOut,
+}
+
+impl fmt::Display for VerdictWord {
+    /// As it stands in the JSON.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
 }
 
 /// One step of a plan. A client must refuse an action that it doesn't know.

@@ -33,7 +33,7 @@ pub use job::{
 };
 pub use job_request::{JobRequest, MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
-pub use problem::{ErrorItem, Problem, ProblemKind, WarningItem};
+pub use problem::{Cause, ErrorItem, Problem, ProblemKind, WarningItem};
 pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
 pub use scene::{
     GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,

@@ -146,6 +146,22 @@ impl ProblemKind {
     }
 }
 
+impl fmt::Display for ProblemKind {
+    /// As it stands in the JSON.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
+/// A problem in short, for a log line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cause {
+    /// The kind of problem.
+    pub problem: ProblemKind,
+    /// The kind of the first fault, if the body is to blame.
+    pub code: Option<ErrorCode>,
+}
+
 /// A problem document: why there is no answer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct Problem {
@@ -212,6 +228,11 @@ impl Problem {
     /// The kind.
     pub fn kind(&self) -> ProblemKind {
         self.kind
+    }
+
+    /// In short.
+    pub fn cause(&self) -> Cause {
+        Cause { problem: self.kind, code: self.errors.first().map(|error| error.code) }
     }
 
     /// The status code.

@@ -84,6 +84,30 @@ fn every_path_is_listed() {
     }
 }
 
+/// The files that the commands of the README make, by what they are made with.
+fn made_files() -> Vec<&'static str> {
+    let blocks = README.split("```").skip(1).step_by(2).filter(|block| block.starts_with("sh"));
+    let words: Vec<&str> = blocks.flat_map(str::split_whitespace).collect();
+    let makes = ["-keyout", "-out", "--api-keys-file", "-extfile", ">"];
+    let made = words.windows(2).filter(|pair| makes.contains(&pair[0])).map(|pair| pair[1].trim_end_matches(')'));
+    made.collect()
+}
+
+#[test]
+fn git_ignores_every_key_and_certificate_that_the_readme_makes() {
+    let made = made_files();
+    assert!(
+        ["keys.toml", "singulate.key", "authority.pem", "robot-1.csr"].iter().all(|file| made.contains(file)),
+        "{made:?}"
+    );
+    let ignored: Vec<&str> = include_str!("../../.gitignore").lines().collect();
+    // openssl's -CAcreateserial makes one beside the authority.
+    for file in [&made[..], &["authority.srl"]].concat() {
+        let kind = format!("*.{}", file.rsplit('.').next().unwrap());
+        assert!(ignored.contains(&file) || ignored.contains(&kind.as_str()), "{file}");
+    }
+}
+
 /// The pages for people: those at the root and those in `docs`.
 fn pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

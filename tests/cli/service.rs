@@ -1,6 +1,6 @@
 //! The service as a process.
 
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use rustix::process::{Pid, Signal, kill_process};
 
 use crate::hard::hard;
 use crate::scenes::ALONE;
-use crate::{answered, failed, run, singulate};
+use crate::{answered, failed, file, run, singulate};
 
 /// A service on a free port; it ends with the test.
 pub(crate) struct Service {
@@ -28,11 +28,11 @@ impl Service {
         let mut command = singulate(&[]);
         command.env("SINGULATE_LISTEN", "127.0.0.1:0").env("SINGULATE_LOG", "warn");
         command.env("SINGULATE_JOBS_URL", "sqlite::memory:").envs(variables.iter().copied());
-        Self::of(command)
+        Self::of(&mut command)
     }
 
     /// What the command starts.
-    pub(crate) fn of(mut command: Command) -> Self {
+    pub(crate) fn of(command: &mut Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
@@ -95,8 +95,87 @@ fn the_service_says_where_it_is_and_what_to_paste_and_is_healthy() {
     assert_eq!(answered(singulate(&["healthcheck"]).env("SINGULATE_LISTEN", listen).output().unwrap()), "");
     let missing = format!("{}/missing", service.url);
     assert!(failed(&run(&["healthcheck", "--url", &missing]), 1).contains("404"));
-    let taken = run(&["serve", "--listen", listen, "--log", "off"]);
-    assert!(failed(&taken, 1).starts_with(listen));
+}
+
+#[test]
+fn a_place_that_can_not_be_had_names_the_flag_and_the_address() {
+    let service = Service::start();
+    let taken = service.url.trim_start_matches("http://");
+    for (listen, cure) in [
+        (taken, "another program listens there: choose another port, or 0 for any free one"),
+        // For documents: no machine has it.
+        ("192.0.2.1:8080", "this machine has no such address"),
+    ] {
+        let jobs = file("taken.db", "");
+        std::fs::remove_file(&jobs).unwrap();
+        let url = format!("sqlite:{}", jobs.display());
+        let refused = run(&["serve", "--listen", listen, "--jobs-url", &url, "--log", "off", "--insecure"]);
+        let errors = failed(&refused, 1);
+        assert!(errors.starts_with(&format!("--listen {listen}: ")) && errors.contains(cure), "{errors}");
+        // No store was made for a service that there is not.
+        assert!(!jobs.exists());
+    }
+}
+
+#[test]
+fn a_service_says_where_it_listens_only_once_it_does() {
+    // Without a store: nothing was promised.
+    let refused = run(&["serve", "--listen", "127.0.0.1:0", "--jobs-url", "sqlite:/nowhere/jobs.db"]);
+    let errors = failed(&refused, 1);
+    assert!(errors.contains("--jobs-url: ") && !errors.contains("serving"), "{errors}");
+}
+
+#[test]
+fn the_flags_of_serve_are_taken_without_the_word() {
+    let mut command = singulate(&["--listen", "127.0.0.1:0", "--jobs-url", "sqlite::memory:"]);
+    command.args(["--log", "warn", "--insecure"]);
+    let service = Service::of(&mut command);
+    assert!(service.status("GET /readyz").contains(" 200 "));
+    // But not before another command.
+    let errors = failed(&run(&["--log", "warn", "plan", "-"]), 2);
+    assert!(errors.contains("cannot be used with"), "{errors}");
+    // Neither they nor their hundred lines are in the short help.
+    let help = answered(run(&["--help"]));
+    assert!(help.contains("takes the flags of `serve`") && !help.contains("--listen"), "{help}");
+}
+
+#[test]
+fn a_variable_that_is_no_setting_is_a_warning_and_the_service_starts() {
+    let log = file("unknown-variables.log", "");
+    let mut command =
+        singulate(&["serve", "--listen", "127.0.0.1:0", "--jobs-url", "sqlite::memory:", "--log", "warn"]);
+    // As Kubernetes does it beside a service called singulate.
+    for (name, value) in [
+        ("SINGULATE_SERVICE_HOST", "10.0.0.1"),
+        ("SINGULATE_PORT", "tcp://10.0.0.1:8080"),
+        ("SINGULATE_PORT_8080_TCP_ADDR", "10.0.0.1"),
+        ("SINGULATE_TREADS", "2"),
+    ] {
+        command.env(name, value);
+    }
+    let service = Service::of(command.stderr(std::fs::File::create(&log).unwrap()));
+    assert!(service.status("GET /readyz").contains(" 200 "));
+    let text = std::fs::read_to_string(&log).unwrap();
+    let warnings: Vec<&str> = text.lines().filter(|line| line.contains("there is no such setting")).collect();
+    assert_eq!(warnings.len(), 4, "{text}");
+    assert!(warnings.iter().all(|line| line.contains(" WARN ") && !line.contains("10.0.0.1")), "{text}");
+    assert!(text.contains("SINGULATE_TREADS: ") && text.contains("did you mean SINGULATE_THREADS?"), "{text}");
+    assert!(text.contains("SINGULATE_PORT: "), "{text}");
+}
+
+#[test]
+fn addresses_that_are_nearly_right_get_advice() {
+    for (flag, value, advice) in [
+        (
+            "--listen",
+            "9000",
+            "--listen: '9000' is not an address and port like 0.0.0.0:8080; did you mean 127.0.0.1:9000",
+        ),
+        ("--jobs-url", "x.db", "--jobs-url: 'x.db' says no kind of store; did you mean sqlite:x.db?"),
+    ] {
+        let errors = failed(&run(&["serve", flag, value]), 2);
+        assert!(errors.starts_with(advice), "{errors}");
+    }
 }
 
 #[test]
@@ -119,6 +198,8 @@ fn a_service_that_calls_back_needs_a_secret_and_does_not_show_it() {
 fn a_service_that_is_not_there_is_not_healthy() {
     // Port 9 discards; nobody listens there on this machine.
     failed(&run(&["healthcheck", "--url", "http://127.0.0.1:9/readyz"]), 1);
+    let errors = failed(&run(&["healthcheck", "--listen", "127.0.0.1:9"]), 1);
+    assert!(errors.contains("a service that was started with --listen"), "{errors}");
     failed(&run(&["healthcheck", "--url", "no url"]), 2);
 }
 
@@ -189,8 +270,16 @@ fn a_service_that_waits_for_its_store_can_be_ended() {
     // It takes connections and never says a word.
     let store = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("postgres://somebody@{}/jobs", store.local_addr().unwrap());
-    let mut service = Service::with(&[("SINGULATE_JOBS_URL", &url)]);
+    // Free a moment ago, and on an address that nobody else uses.
+    let listen = TcpListener::bind("127.83.71.1:0").unwrap().local_addr().unwrap();
+    let mut command = singulate(&["serve", "--listen", &listen.to_string(), "--jobs-url", &url]);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let _silent = store.accept().unwrap();
-    service.signal(Signal::TERM);
-    assert_eq!(service.ended().code(), Some(0));
+    // A probe finds the door closed rather than wait behind it.
+    assert_eq!(TcpStream::connect(listen).unwrap_err().kind(), ErrorKind::ConnectionRefused);
+    kill_process(Pid::from_child(&child), Signal::TERM).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let log = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), output.stdout), (Some(0), Vec::new()), "{log}");
+    assert!(log.contains("opening the store of jobs") && !log.contains("serving"), "{log}");
 }

@@ -46,7 +46,7 @@ fn whatever_is_wrong_is_named_with_its_source() {
     for start in [
         "--threads: 'many' is not",
         "SINGULATE_LISTEN: 'nowhere' is not",
-        "SINGULATE_PORT: there is no such setting",
+        "warning: SINGULATE_PORT: there is no such setting",
         &format!("max_object in {path}: there is no such setting"),
         &format!("queue in {path}: '-1' is not"),
     ] {

@@ -60,9 +60,14 @@ fn a_service_by_tls_says_so_and_is_healthy_whatever_name_its_certificate_has() {
         let mut check = singulate(&["healthcheck"]);
         check.env("SINGULATE_LISTEN", listen).env("SINGULATE_TLS_CERT", &cert);
         assert_eq!(answered(check.output().unwrap()), "");
-        // Without the setting it asks in plain HTTP, and is told.
-        let plain = singulate(&["healthcheck"]).env("SINGULATE_LISTEN", listen).output().unwrap();
-        assert!(failed(&plain, 1).contains("400"));
+        // Where flags said that there is TLS, no setting does; but the service itself does.
+        assert_eq!(answered(singulate(&["healthcheck"]).env("SINGULATE_LISTEN", listen).output().unwrap()), "");
+        assert_eq!(answered(run(&["healthcheck", "--listen", listen])), "");
+        let config = file("healthy.toml", &format!("listen = '{listen}'\n"));
+        assert_eq!(answered(run(&["healthcheck", "--config", config.to_str().unwrap()])), "");
+        // A URL is asked as it stands.
+        let plain = failed(&run(&["healthcheck", "--url", &format!("http://{listen}/readyz")]), 1);
+        assert!(plain.contains("400") && plain.contains("this port speaks TLS: ask https"), "{plain}");
     }
 }
 
@@ -77,7 +82,8 @@ fn a_health_check_of_a_url_trusts_whom_the_machine_trusts() {
         check.env("SSL_CERT_FILE", trusted).env("SSL_CERT_DIR", "/nowhere").output().unwrap()
     };
     assert_eq!(answered(check("localhost", &cert)), "");
-    failed(&check("localhost", "/nowhere.pem"), 1);
+    let untrusted = failed(&check("localhost", "/nowhere.pem"), 1);
+    assert!(untrusted.contains("SSL_CERT_FILE=FILE names its authority"), "{untrusted}");
     failed(&check("127.0.0.1", &cert), 1);
 }
 
@@ -88,7 +94,7 @@ fn the_log_names_each_certificate_and_what_keeps_one_from_being_replaced() {
     let log = file("tls.log", "");
     let mut command = singulate(&["serve", "--listen", "127.0.0.1:0", "--jobs-url", "sqlite::memory:"]);
     command.args(["--tls-cert", &cert, "--tls-key", &key]).stderr(fs::File::create(&log).unwrap());
-    let mut service = Service::of(command);
+    let mut service = Service::of(&mut command);
     let wait_for = |what: &str| {
         let started = std::time::Instant::now();
         loop {

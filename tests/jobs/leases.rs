@@ -19,7 +19,7 @@ pub(crate) async fn a_worker_that_renews_keeps_its_job(home: &Home) {
     assert_eq!(store.renew(claim, at(99)).await.unwrap(), Renewal::Held);
     assert_eq!(store.sweep(at(198)).await.unwrap(), Swept::default());
     assert_eq!(seen(&store, id).await.state, JobState::Running);
-    assert_eq!(store.sweep(at(199)).await.unwrap(), Swept { requeued: 1, ..Swept::default() });
+    assert_eq!(store.sweep(at(199)).await.unwrap(), Swept { requeued: vec![id], ..Swept::default() });
     let queued = seen(&store, id).await;
     assert_eq!((queued.state, queued.attempts, queued.queue_position), (JobState::Queued, 1, Some(1)));
     assert_eq!(queued.started_at, Some(at(0)));
@@ -98,8 +98,8 @@ pub(crate) async fn the_third_lost_worker_ends_a_job(home: &Home) {
         assert_eq!(work.attempt, attempt);
         claim = Some(work.claim);
         let swept = store.sweep(at(begin + 100)).await.unwrap();
-        let poisoned = if attempt == MAX_ATTEMPTS { vec![id] } else { Vec::new() };
-        assert_eq!(swept, Swept { requeued: u64::from(poisoned.is_empty()), poisoned, ..Swept::default() });
+        let (requeued, poisoned) = if attempt < MAX_ATTEMPTS { (vec![id], Vec::new()) } else { (Vec::new(), vec![id]) };
+        assert_eq!(swept, Swept { requeued, poisoned, ..Swept::default() });
     }
     assert_eq!(store.claim(at(710)).await.unwrap(), None);
     let failed = seen(&store, id).await;
@@ -115,7 +115,7 @@ pub(crate) async fn a_cancelled_job_ends_with_its_worker(home: &Home) {
     let id = submitted(&store, job()).await.id;
     claimed(&store, 0).await;
     store.cancel(&ann(), id, at(1)).await.unwrap();
-    assert_eq!(store.sweep(at(100)).await.unwrap(), Swept { cancelled: 1, ..Swept::default() });
+    assert_eq!(store.sweep(at(100)).await.unwrap(), Swept { cancelled: vec![id], ..Swept::default() });
     let ended = seen(&store, id).await;
     assert_eq!((ended.state, ended.finished_at, ended.attempts), (JobState::Cancelled, Some(at(100)), 1));
 }

@@ -181,20 +181,20 @@ impl Model {
         let overdue = |entry: &&mut Entry| entry.job.state == JobState::Running && entry.lease_ends <= now;
         for entry in self.entries.iter_mut().filter(overdue) {
             if entry.cancel_requested {
-                swept.cancelled += 1;
+                swept.cancelled.push(entry.job.id);
                 entry.end(JobState::Cancelled, now);
             } else if entry.job.attempts == MAX_ATTEMPTS {
                 swept.poisoned.push(entry.job.id);
                 entry.end(JobState::Failed, now);
             } else {
-                swept.requeued += 1;
+                swept.requeued.push(entry.job.id);
                 entry.job.state = JobState::Queued;
                 entry.tell(EventKind::Queued, now);
             }
         }
         let late = |entry: &&mut Entry| entry.job.state == JobState::Queued && entry.job.expires_at <= now;
         for entry in self.entries.iter_mut().filter(late) {
-            swept.expired += 1;
+            swept.expired.push(entry.job.id);
             entry.end(JobState::Expired, now);
         }
         let before = self.entries.len();

@@ -9,7 +9,7 @@ use proptest::test_runner::{Config, TestRunner};
 use singulate::budget::Incumbent;
 use singulate::jobs::{
     Cancellation, Claim, End, Job, JobId, JobSettings, JobState, NewJob, Owner, Page, Removal, Renewal, Store,
-    SubmitError, Timestamp, open,
+    SubmitError, Swept, Timestamp, open,
 };
 
 use crate::home::{Home, ann, at, bob, job};
@@ -110,8 +110,11 @@ impl Trial {
             Step::Forget { pick } => self.forget(pick).await,
             Step::Sweep => {
                 let (mut swept, mut expected) = (self.store.sweep(self.now).await.unwrap(), self.model.sweep(self.now));
-                swept.poisoned.sort_unstable();
-                expected.poisoned.sort_unstable();
+                for Swept { requeued, poisoned, cancelled, expired, .. } in [&mut swept, &mut expected] {
+                    for jobs in [requeued, poisoned, cancelled, expired] {
+                        jobs.sort_unstable();
+                    }
+                }
                 assert_eq!(swept, expected);
             }
             Step::Wait { millis } => self.now = self.now.after(Duration::from_millis(millis)),

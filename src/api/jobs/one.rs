@@ -16,7 +16,7 @@ use super::problems::{OneJobProblems, job_id, no_such_job, unavailable};
 use super::query::Parameters;
 use crate::api::access::Caller;
 use crate::api::app::App;
-use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp};
+use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp, job_ended};
 use crate::metrics::{Ended, Refusal};
 use crate::wire::{JobBody, Problem, ProblemKind};
 
@@ -88,6 +88,7 @@ pub(in crate::api) async fn cancel(
         Cancellation::Accepted(job) => {
             app.runner.cancel(id);
             if job.state == JobState::Cancelled {
+                job_ended(id, Ended::Cancelled);
                 app.metrics.job_ended(Ended::Cancelled);
             }
             Ok(accepted(Some(id), job.body()))

@@ -22,7 +22,7 @@ pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Sw
     for job in &late {
         change.end(job, &Ending::bare(JobState::Expired), now).await?;
     }
-    swept.expired = count(late.len());
+    swept.expired = late.iter().map(|job| job.id).collect();
     let old = "state <> 'queued' AND state <> 'running' AND expires_at <= $1 ORDER BY expires_at";
     let old = overdue(change, old, now).await?;
     for job in &old {
@@ -30,7 +30,7 @@ pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Sw
         query.execute(change.connection()).await?;
         change.announce(job.id, false);
     }
-    swept.forgotten = count(old.len());
+    swept.forgotten = u64::try_from(old.len()).unwrap_or(u64::MAX);
     Ok((swept, [lost, late, old].iter().any(|jobs| jobs.len() == BATCH)))
 }
 
@@ -44,10 +44,10 @@ async fn overdue(change: &mut Change<'_>, condition: &str, now: Timestamp) -> Re
 /// A worker said nothing for a whole lease.
 async fn lose(change: &mut Change<'_>, job: &Standing, swept: &mut Swept, now: Timestamp) -> Result<(), Error> {
     if job.cancel_requested {
-        swept.cancelled += 1;
+        swept.cancelled.push(job.id);
         change.end(job, &Ending::bare(JobState::Cancelled), now).await
     } else if job.attempts < MAX_ATTEMPTS {
-        swept.requeued += 1;
+        swept.requeued.push(job.id);
         change.requeue(job, job.attempts, now).await
     } else {
         swept.poisoned.push(job.id);
@@ -64,16 +64,12 @@ fn poison() -> String {
     serde_json::to_string(&problem).expect("a problem document is JSON")
 }
 
-fn count(length: usize) -> u64 {
-    u64::try_from(length).unwrap_or(u64::MAX)
-}
-
 pub(super) fn add(all: &mut Swept, batch: Swept) {
     let Swept { requeued, poisoned, cancelled, expired, forgotten } = batch;
-    all.requeued += requeued;
+    all.requeued.extend(requeued);
     all.poisoned.extend(poisoned);
-    all.cancelled += cancelled;
-    all.expired += expired;
+    all.cancelled.extend(cancelled);
+    all.expired.extend(expired);
     all.forgotten += forgotten;
 }
 

@@ -33,6 +33,7 @@ pub(super) async fn claim(change: &mut Change<'_>, now: Timestamp) -> Result<Opt
     change.announce(job.id, false);
     Ok(Some(Claimed {
         claim: Claim { id: job.id, fence: job.fence + 1 },
+        owner: job.owner,
         body: row.try_get("body")?,
         attempt,
         created_at: row::time(&row, "created_at")?,

@@ -1,0 +1,20 @@
+//! Durations as log lines have them.
+
+use core::time::Duration;
+
+/// In milliseconds with two decimals: nobody reads the rest.
+pub fn milliseconds(duration: Duration) -> f64 {
+    (duration.as_secs_f64() * 1e5).round() / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn milliseconds_have_two_decimals() {
+        let shown = |nanos| milliseconds(Duration::from_nanos(nanos)).to_string();
+        assert_eq!([0, 4_999, 5_000, 123_456, 1_000_000].map(shown), ["0", "0", "0.01", "0.12", "1"]);
+        assert_eq!(shown(12_345_678_901), "12345.68");
+    }
+}
