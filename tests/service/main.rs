@@ -5,6 +5,7 @@
 mod bodies;
 mod browsers;
 mod connections;
+mod described;
 mod document;
 mod draining;
 mod golden;
@@ -18,4 +19,5 @@ mod knowledge;
 mod metrics;
 mod negotiation;
 mod planning;
+mod schema;
 mod tls;
