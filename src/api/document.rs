@@ -12,10 +12,11 @@ use utoipa::{IntoResponses, OpenApi};
 use utoipa_axum::router::OpenApiRouter;
 
 use super::access::Need;
+use super::examples;
 use super::problem::{PROBLEM_JSON, comes_again};
 use super::router;
 use crate::keys::Scope;
-use crate::wire::{Problem, ProblemKind};
+use crate::wire::{AnyObject, Problem, ProblemKind};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -56,6 +57,7 @@ pub fn openapi() -> utoipa::openapi::OpenApi {
     let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).description(Some(BEARER)).build();
     components.add_security_scheme(SCHEME, SecurityScheme::Http(bearer));
     components.schemas.values_mut().for_each(describe_nullable_fields);
+    examples::add(&mut document);
     document
 }
 
@@ -186,7 +188,7 @@ static SERVED: LazyLock<String> = LazyLock::new(openapi_json);
 ///
 /// The interface as OpenAPI 3.1; `/docs` shows it as a page.
 #[utoipa::path(get, path = "/openapi.json", operation_id = "openapi", tag = "operation", responses(
-    (status = 200, description = "The document.", body = Object, content_type = "application/json"),
+    (status = 200, description = "The document.", body = AnyObject, content_type = "application/json"),
 ))]
 pub(super) async fn serve() -> impl IntoResponse {
     ([(header::CONTENT_TYPE, "application/json")], SERVED.as_str())

@@ -10,6 +10,7 @@ mod cors;
 mod docs;
 mod document;
 mod edge;
+mod examples;
 mod headers;
 mod jobs;
 mod knowledge;

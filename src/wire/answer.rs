@@ -124,10 +124,10 @@ pub enum ActionWord {
 /// A point on the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 pub struct PointBody {
-    /// Along the table\'s x, m.
+    /// Along the table's x, m.
     #[schema(example = 0.4)]
     pub x: f64,
-    /// Along the table\'s y, m.
+    /// Along the table's y, m.
     #[schema(example = 0.2)]
     pub y: f64,
 }

@@ -12,18 +12,6 @@ use super::scene::{GripperBody, ObjectBody, SettingsBody, TableBody};
 /// A scene to be planned for later: the body of a planning request and two fields more.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-#[schema(example = json!({
-    "scene_id": "cell-4/17",
-    "table": {"x_min": 0, "y_min": 0, "x_max": 0.8, "y_max": 0.5},
-    "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
-    "objects": [
-        {"id": "cup", "x": 0.4, "y": 0.25, "radius": 0.04},
-        {"id": "plate-1", "x": 0.5, "y": 0.29, "radius": 0.06},
-        {"id": "plate-2", "x": 0.4, "y": 0.36, "radius": 0.06}
-    ],
-    "target": "cup",
-    "priority": 0
-}))]
 pub struct JobSceneBody {
     /// The caller's name for the scene; echoed in job and answer and in logs.
     #[schema(max_length = 256, example = "cell-4/17")]
@@ -122,10 +110,10 @@ pub struct JobBody {
     #[schema(example = 1)]
     pub attempts: u32,
     /// How many jobs will be taken until it is, itself included; null unless it is queued.
-    #[schema(required = true, example = 3)]
+    #[schema(required = true, value_type = Option<usize>, example = 1)]
     pub queue_position: Option<u64>,
     /// The digest of the scene without its name and settings, however it was written; hexadecimal.
-    #[schema(example = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08")]
+    #[schema(example = "f111313c9ecf7ea9b764844cd8466b78c8bfb0303277cfdc48e5ec969a5b84e0")]
     pub scene_sha256: String,
     /// The version of the service that ended it; of the one that answers as long as none has.
     #[schema(example = "0.1.0")]
@@ -139,36 +127,6 @@ pub struct JobBody {
     /// Why there is no answer; null unless the job failed.
     #[schema(required = true, value_type = Option<Problem>)]
     pub problem: Option<Box<RawValue>>,
-}
-
-/// The kinds of event.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(example = "running")]
-pub enum JobEventWord {
-    /// The job waits for a worker: new, or after a worker was lost.
-    Queued,
-    /// A worker began.
-    Running,
-    /// A better set or a better bound is known.
-    Incumbent,
-    /// The job ended, whatever way.
-    Finished,
-    /// The service shuts down.
-    Draining,
-}
-
-/// One event of a stream.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-pub struct JobEventBody {
-    /// Its number among the job's events, from 1; `draining` has none.
-    #[schema(example = "2")]
-    pub id: Option<String>,
-    /// What happened.
-    pub event: JobEventWord,
-    /// The job as it stood then, as JSON; `{}` for `draining`.
-    #[schema(example = "{}")]
-    pub data: String,
 }
 
 /// Jobs that were accepted.
@@ -190,13 +148,17 @@ pub struct JobListBody {
     pub next_cursor: Option<String>,
 }
 
-/// A list of jobs, for the interface document.
-fn one_queued() -> Value {
-    json!([{
+/// The job that the example scene becomes, for the interface document.
+pub fn queued_job() -> Value {
+    json!({
         "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",
         "created_at": "2026-01-05T09:30:00.000Z", "started_at": null, "finished_at": null,
-        "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 3,
-        "scene_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08", "version": "0.1.0",
-        "incumbent": null, "result": null, "problem": null
-    }])
+        "expires_at": "2026-01-05T10:30:00.000Z", "attempts": 0, "queue_position": 1,
+        "scene_sha256": "f111313c9ecf7ea9b764844cd8466b78c8bfb0303277cfdc48e5ec969a5b84e0",
+        "version": env!("CARGO_PKG_VERSION"), "incumbent": null, "result": null, "problem": null
+    })
+}
+
+fn one_queued() -> Value {
+    json!([queued_job()])
 }

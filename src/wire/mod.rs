@@ -28,9 +28,7 @@ pub use answer::{
 pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use code::ErrorCode;
 pub use glance::Glance;
-pub use job::{
-    BatchBody, IncumbentBody, JobBody, JobEventBody, JobEventWord, JobListBody, JobSceneBody, JobStateWord, JobsBody,
-};
+pub use job::{BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody, queued_job};
 pub use job_request::{JobRequest, MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use problem::{Cause, ErrorItem, Problem, ProblemKind, WarningItem};
@@ -39,7 +37,7 @@ pub use scene::{
     GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,
     SettingsBody, TableBody,
 };
-pub use stated::{PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, StatedStatistics, VerifyBody};
+pub use stated::{AnyObject, PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, VerifyBody};
 pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
 pub use table1::{MethodBody, ModelBody, PaperBody, PaperMethodBody, PlansBody, Table1Body, Table1ColumnBody};
 pub use table2::{PaperRepositionBody, PlacementBody, Table2Body, Table2ColumnBody};

@@ -154,7 +154,7 @@ pub struct SettingsBody {
     /// The time for waiting and planning from the arrival of the request, ms. 1000 where absent.
     #[schema(minimum = 1, maximum = 60000, example = 1000)]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub time_limit_ms: Option<u64>,
+    pub time_limit_ms: Option<u32>,
 }
 
 /// Which yaws an obstacle blocks.

@@ -1,6 +1,8 @@
 //! A stated answer as JSON: how it is described.
 
-use utoipa::ToSchema;
+use utoipa::openapi::schema::AdditionalProperties;
+use utoipa::openapi::{ObjectBuilder, RefOr, Schema, Type};
+use utoipa::{PartialSchema, ToSchema};
 
 use super::answer::{ActionWord, VerdictWord};
 use super::scene::SceneBody;
@@ -8,15 +10,6 @@ use super::scene::SceneBody;
 /// A scene and a stated answer.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
-#[schema(example = json!({
-    "scene": {
-        "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7},
-        "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
-        "objects": [{"id": "plate-1", "x": 0.31, "y": 0.22, "radius": 0.075}],
-        "target": "plate-1"
-    },
-    "plan": {"relocations": [], "target_grasp": {"yaw": 0.52}}
-}))]
 pub struct VerifyBody {
     /// The scene, as in a planning request.
     pub scene: SceneBody,
@@ -46,10 +39,10 @@ pub struct PlanBody {
     pub target_grasp: Option<StatedGrasp>,
     /// The count of relocations.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
-    pub cost: Option<u64>,
+    pub cost: Option<u32>,
     /// No plan is said to have fewer relocations.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
-    pub lower_bound: Option<u64>,
+    pub lower_bound: Option<u32>,
     /// The plan is said to be as short as any.
     #[schema(example = true)]
     pub optimal: Option<bool>,
@@ -62,16 +55,25 @@ pub struct PlanBody {
     #[schema(example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
     /// Not checked.
-    #[schema(value_type = Option<Vec<Object>>, example = json!([]))]
+    #[schema(value_type = Option<Vec<AnyObject>>, example = json!([]))]
     pub warnings: (),
     /// Not checked.
-    pub statistics: Option<StatedStatistics>,
+    pub statistics: Option<AnyObject>,
 }
 
-/// How long each phase is said to have taken.
-#[derive(Debug, Clone, Copy, ToSchema)]
-#[schema(value_type = Object, example = json!({"knowledge_ms": 0.04}))]
-pub struct StatedStatistics(());
+/// An object whose fields are not described. The schema says so: without a word, some generators admit none.
+#[derive(Debug, Clone, Copy)]
+pub struct AnyObject(());
+
+impl PartialSchema for AnyObject {
+    fn schema() -> RefOr<Schema> {
+        let any_field = AdditionalProperties::FreeForm(true);
+        let object = ObjectBuilder::new().schema_type(Type::Object).additional_properties(Some(any_field));
+        object.description(Some("An object with any fields.")).into()
+    }
+}
+
+impl ToSchema for AnyObject {}
 
 /// A stated step.
 #[derive(Debug, Clone, ToSchema)]
@@ -99,10 +101,10 @@ pub struct StatedRelocation {
 #[derive(Debug, Clone, Copy, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedPoint {
-    /// Along the table\'s x, m.
+    /// Along the table's x, m.
     #[schema(minimum = -100000, maximum = 100000, example = 0.4)]
     pub x: f64,
-    /// Along the table\'s y, m.
+    /// Along the table's y, m.
     #[schema(minimum = -100000, maximum = 100000, example = 0.2)]
     pub y: f64,
 }

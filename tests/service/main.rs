@@ -5,6 +5,7 @@
 mod bodies;
 mod browsers;
 mod connections;
+mod described;
 mod document;
 mod draining;
 mod frozen;
@@ -19,4 +20,5 @@ mod knowledge;
 mod metrics;
 mod negotiation;
 mod planning;
+mod schema;
 mod tls;

@@ -17,17 +17,18 @@ use super::one::{LOOK_AGAIN, find};
 use super::problems::{OneJobProblems, job_id};
 use crate::api::access::Caller;
 use crate::api::app::App;
-use crate::jobs::{Job, JobId, Watcher};
+use crate::jobs::{Job, Watcher};
 use crate::metrics::{Open, Refusal};
-use crate::wire::{JobEventBody, Problem, ProblemKind};
+use crate::wire::{JobBody, Problem, ProblemKind};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
 /// What happens to a job
 ///
-/// Server-sent events `queued`, `running`, `incumbent` and `finished`, from the first on; the data is the job as it stood
-/// then. The stream ends with `finished`, or with `draining` where the service shuts down: come again with
-/// `Last-Event-ID`, at any server. 204 where nothing more will come.
+/// Server-sent events `queued`, `running`, `incumbent` and `finished`, from the first on, each with its number as `id`. The
+/// schema is that of one event's data: the job as it stood then. The stream ends with `finished`, or with `draining`, which
+/// has no number, where the service shuts down: come again with `Last-Event-ID`, at any server. 204 where nothing more will
+/// come.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/events",
@@ -38,7 +39,7 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
         ("Last-Event-ID" = Option<String>, Header, description = "The last event that was received; only later ones come."),
     ),
     responses(
-        (status = 200, description = "The events.", body = JobEventBody, content_type = "text/event-stream"),
+        (status = 200, description = "The events; the schema is that of one event's data.", body = JobBody, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and all its events were received."),
         OneJobProblems,
     )
@@ -61,7 +62,7 @@ pub(in crate::api) async fn events(
         app.metrics.refused(Refusal::Limit);
         Problem::new(ProblemKind::Overloaded, "as many clients listen to jobs as may; ask for the job instead")
     })?;
-    let listener = Listener::new(app, caller, (id, seen), slot);
+    let listener = Listener::new(app, caller, (job, seen), slot);
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }
 
@@ -69,7 +70,8 @@ pub(in crate::api) async fn events(
 struct Listener {
     app: Arc<App>,
     caller: Caller,
-    id: JobId,
+    /// As it stood when the store was last asked.
+    job: Job,
     watcher: Watcher,
     /// How many events it has seen.
     seen: usize,
@@ -81,10 +83,10 @@ struct Listener {
 }
 
 impl Listener {
-    fn new(app: Arc<App>, caller: Caller, (id, seen): (JobId, usize), slot: OwnedSemaphorePermit) -> Self {
-        let watcher = app.store.hints().watch(id);
+    fn new(app: Arc<App>, caller: Caller, (job, seen): (Job, usize), slot: OwnedSemaphorePermit) -> Self {
+        let watcher = app.store.hints().watch(job.id);
         let open = app.metrics.stream();
-        Self { app, caller, id, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
+        Self { app, caller, job, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
     }
 
     fn messages(self) -> impl Stream<Item = Result<Message, Infallible>> {
@@ -103,8 +105,8 @@ impl Listener {
                 return None;
             }
             let changed = self.watcher.changed();
-            match self.app.store.get(&self.caller.owner, self.id).await {
-                Ok(Some(job)) => self.take(&job),
+            match self.app.store.get(&self.caller.owner, self.job.id).await {
+                Ok(Some(job)) => self.take(job),
                 Ok(None) => self.over = true,
                 // The store may be back soon.
                 Err(error) => tracing::debug!(%error, "an event stream waits for the store"),
@@ -115,7 +117,7 @@ impl Listener {
                     () = sleep(LOOK_AGAIN) => {}
                     () = self.caller.locked_out() => self.over = true,
                     () = self.app.draining.wait() => {
-                        self.ready.push_back(Message::default().event("draining").data("{}"));
+                        self.ready.push_back(message("draining", &self.job));
                         self.over = true;
                     }
                 }
@@ -123,13 +125,18 @@ impl Listener {
         }
     }
 
-    fn take(&mut self, job: &Job) {
+    fn take(&mut self, job: Job) {
         for (at, event) in job.events.iter().enumerate().skip(self.seen) {
-            let message = Message::default().id((at + 1).to_string()).event(event.kind.as_str());
-            let data = serde_json::to_string(&job.as_of(event).body()).unwrap_or_default();
-            self.ready.push_back(message.data(data));
+            let message = message(event.kind.as_str(), &job.as_of(event));
+            self.ready.push_back(message.id((at + 1).to_string()));
         }
         self.seen = self.seen.max(job.events.len());
         self.over = job.state.finished();
+        self.job = job;
     }
+}
+
+/// An event without a number.
+fn message(name: &str, job: &Job) -> Message {
+    Message::default().event(name).data(serde_json::to_string(&job.body()).unwrap_or_default())
 }

@@ -8,7 +8,7 @@ use super::{crowded, ended, path, submit};
 use crate::host::{Host, PATIENCE, endless, scene};
 
 /// Id, name and data of each event of a stream that has ended.
-fn messages(text: &str) -> Vec<(String, String, Value)> {
+pub(crate) fn messages(text: &str) -> Vec<(String, String, Value)> {
     let field = |block: &str, name: &str| {
         let line = block.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(": "));
         line.unwrap_or_default().to_owned()

@@ -2,7 +2,7 @@
 
 mod callbacks;
 mod ends;
-mod events;
+pub(crate) mod events;
 mod requests;
 mod submitting;
 
