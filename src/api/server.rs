@@ -62,6 +62,9 @@ pub async fn run_with(
     let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
     connections.serve_until(shutdown).await;
     drain(&app, connections, &background).await;
+    if let Err(error) = app.store.close().await {
+        tracing::warn!(%error, "the store of jobs could not be brought in order; a SQLite file may need those beside it");
+    }
     Ok(())
 }
 
