@@ -64,6 +64,9 @@ impl Server {
         let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
         connections.serve_until(shutdown).await;
         drain(&app, connections, &background).await;
+        if let Err(error) = app.store.close().await {
+            tracing::warn!(%error, "the store of jobs could not be brought in order; a SQLite file may need those beside it");
+        }
     }
 }
 

@@ -55,9 +55,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let listen = place.local_addr().map_err(cannot_listen)?;
     let mut shutdown = pin!(stop_signal().map_err(broken)?);
     config.server.connections = open_files::room_for(config.server.connections);
-    if let Some(warning) = config.warning() {
-        tracing::warn!(%listen, "{warning}");
-    }
+    config.warning().into_iter().for_each(|warning| tracing::warn!(%listen, "{warning}"));
     let (greeting, threads) = (greeting(listen, &config.server), config.server.threads);
     tracing::info!("opening the store of jobs");
     let server = Server::open(config.server, Engine::default(), shutdown.as_mut()).await.map_err(broken)?;

@@ -30,7 +30,8 @@ impl Job {
     /// As it was served, or would have been, right after the event.
     #[must_use]
     pub fn as_of(&self, event: &Event) -> Self {
-        let then = Self { attempts: event.attempts, incumbent: event.incumbent, queue_position: None, ..self.clone() };
+        let Event { attempts, incumbent, queue_position, .. } = *event;
+        let then = Self { attempts, incumbent, queue_position, ..self.clone() };
         // As long after its beginning as it is kept after its end.
         let expires_at =
             then.finished_at.map_or(then.expires_at, |end| then.created_at.after(then.expires_at.since(end)));

@@ -10,11 +10,14 @@ use tokio_util::sync::CancellationToken;
 use super::job::End;
 use super::pause::Pause;
 use super::store::{Claim, Renewal, Store, StoreError};
-use super::timestamp::Timestamp;
+use super::timestamp::{Timestamp, WallClock};
 use crate::budget::Incumbent;
 
 /// The least time between two notes of the best so far: nobody reads faster, and each is a write.
 const NOTE_EVERY: Duration = Duration::from_millis(100);
+
+/// How long after a note that failed it is tried again.
+const NOTE_AGAIN: Duration = Duration::from_secs(1);
 
 /// When to look at a new lease for the first time. Most jobs have ended by then, and cost no write more.
 const FIRST_LOOK: Duration = Duration::from_millis(10);
@@ -36,31 +39,36 @@ impl Held {
     /// Keeps the lease and passes on what is known; calls `cancelled` once the caller wants no more. Done once the lease is
     /// lost.
     pub(super) async fn keep(&self, incumbent: &mut watch::Receiver<Option<Incumbent>>, cancelled: impl Fn()) {
-        let watcher = self.store.hints().watch(self.claim.id);
-        let mut changed = Box::pin(watcher.changed());
-        // The lease is new; but a wish to cancel may have come between the claim and the watching.
+        let holder = self.store.hints().hold(self.claim.id);
+        let mut recalled = Box::pin(holder.changed());
+        // The lease is new; but a wish to cancel may have come between the claim and the holding.
         let mut renewal = interval_at(Instant::now() + FIRST_LOOK, self.lease / 3);
         renewal.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut next_note = Instant::now();
         let mut told = true;
         loop {
+            // The wait for news comes last: what it has seen would be lost if another branch went first.
             let noting = async {
-                let news = incumbent.changed().await;
                 sleep_until(next_note).await;
-                news
+                incumbent.changed().await
             };
             let renewed = tokio::select! {
                 _ = renewal.tick() => self.renew().await,
-                // Perhaps it was cancelled.
-                () = changed.as_mut() => {
-                    changed = Box::pin(watcher.changed());
+                // It was cancelled, or is somebody else's.
+                () = recalled.as_mut() => {
+                    recalled = Box::pin(holder.changed());
                     self.renew().await
                 }
                 news = noting, if told => {
                     told = news.is_ok();
-                    next_note = Instant::now() + NOTE_EVERY;
                     let best = *incumbent.borrow_and_update();
-                    self.note(best).await.map(|held| if held { Renewal::Held } else { Renewal::Lost })
+                    let noted = self.note(best).await;
+                    // What the store does not have stays news.
+                    if noted.is_err() {
+                        incumbent.mark_changed();
+                    }
+                    next_note = Instant::now() + if noted.is_ok() { NOTE_EVERY } else { NOTE_AGAIN };
+                    noted.map(|held| if held { Renewal::Held } else { Renewal::Lost })
                 }
             };
             match renewed {
@@ -68,7 +76,7 @@ impl Held {
                 Ok(Renewal::Cancelled) => cancelled(),
                 Ok(Renewal::Lost) => return self.warn("the lease is lost", None),
                 // Planning goes on: the lease may hold until the store is back.
-                Err(error) => self.warn("the lease could not be renewed", Some(&error)),
+                Err(error) => self.warn("the store could not be told of a running job", Some(&error)),
             }
         }
     }
@@ -102,7 +110,7 @@ impl Held {
     }
 
     async fn renew(&self) -> Result<Renewal, StoreError> {
-        self.store.renew(self.claim, Timestamp::now()).await
+        self.store.renew(self.claim, &WallClock::system()).await
     }
 
     async fn note(&self, best: Option<Incumbent>) -> Result<bool, StoreError> {
@@ -127,42 +135,153 @@ impl Held {
 
 #[cfg(test)]
 mod tests {
+    use sqlx::{AssertSqlSafe, Connection, SqliteConnection};
     use tokio::sync::Notify;
-    use tokio::time::timeout;
+    use tokio::time::{sleep, timeout};
 
     use super::*;
     use crate::jobs::{Cancellation, JobId, JobSettings, NewJob, Owner, open};
+    use crate::metrics::Metrics;
+
+    /// Whoever heard of something only when the lease is renewed would hear of it after 20 s.
+    const LEASE: Duration = Duration::from_secs(60);
+    const PATIENCE: Duration = Duration::from_secs(15);
+
+    /// A store in which one job was claimed.
+    struct Trial {
+        store: Arc<dyn Store>,
+        metrics: Arc<Metrics>,
+        claim: Claim,
+        heard: Notify,
+    }
+
+    impl Trial {
+        async fn at(url: String) -> Self {
+            let (settings, metrics) = (JobSettings { url, lease: LEASE, ..JobSettings::default() }, Arc::default());
+            let store = open(&settings, Arc::clone(&metrics)).await.unwrap();
+            let job = NewJob {
+                id: JobId::new(),
+                owner: Owner::anonymous(),
+                key: None,
+                request_sha256: String::new(),
+                scene_id: None,
+                scene_sha256: String::new(),
+                body: b"{}".to_vec(),
+                priority: 0,
+                callback_url: None,
+            };
+            store.submit(&[job], Timestamp::now()).await.unwrap();
+            let claim = store.claim(&WallClock::system()).await.unwrap().unwrap().claim;
+            Self { store, metrics, claim, heard: Notify::new() }
+        }
+
+        async fn in_memory() -> Self {
+            Self::at("sqlite::memory:".to_owned()).await
+        }
+
+        /// The job is held while this is done.
+        async fn held_during(
+            &self,
+            incumbent: &mut watch::Receiver<Option<Incumbent>>,
+            work: impl Future<Output = ()>,
+        ) {
+            let held = Held::new(Arc::clone(&self.store), self.claim, LEASE);
+            let keeping = held.keep(incumbent, || self.heard.notify_one());
+            tokio::select! {
+                () = keeping => panic!("the lease is lost"),
+                done = timeout(PATIENCE, work) => done.expect("it is heard of at once"),
+            }
+        }
+
+        async fn cancel(&self) {
+            let cancelled = self.store.cancel(&Owner::anonymous(), self.claim.id, Timestamp::now()).await;
+            assert!(matches!(cancelled, Ok(Cancellation::Accepted(_))));
+        }
+
+        /// Done once the store has this.
+        async fn keeps(&self, best: Incumbent) {
+            while self.store.get(&Owner::anonymous(), self.claim.id).await.unwrap().unwrap().incumbent != Some(best) {
+                sleep(Duration::from_millis(1)).await;
+            }
+        }
+
+        /// How many calls of the store there were.
+        fn calls(&self, operation: &str, outcome: &str) -> usize {
+            let labels = format!("singulate_store_seconds_count{{operation=\"{operation}\",outcome=\"{outcome}\"}} ");
+            self.metrics.text().lines().find_map(|line| line.strip_prefix(&labels)?.parse().ok()).unwrap_or_default()
+        }
+    }
+
+    fn cost(cost: usize) -> Incumbent {
+        Incumbent { cost, lower_bound: 1 }
+    }
 
     #[tokio::test]
-    async fn a_cancel_between_the_claim_and_the_watching_is_heard() {
-        // Whoever heard of it only when the lease is renewed would hear of it after 20 s.
-        let lease = Duration::from_secs(60);
-        let settings = JobSettings { url: "sqlite::memory:".to_owned(), lease, ..JobSettings::default() };
-        let store = open(&settings, Arc::default()).await.unwrap();
-        let (id, owner, now) = (JobId::new(), Owner::anonymous(), Timestamp::now());
-        let job = NewJob {
-            id,
-            owner: owner.clone(),
-            key: None,
-            request_sha256: String::new(),
-            scene_id: None,
-            scene_sha256: String::new(),
-            body: b"{}".to_vec(),
-            priority: 0,
-            callback_url: None,
-        };
-        store.submit(&[job], now).await.unwrap();
-        let claim = store.claim(now).await.unwrap().unwrap().claim;
-        assert!(matches!(store.cancel(&owner, id, now).await, Ok(Cancellation::Accepted(_))));
-        let held = Held::new(store, claim, lease);
+    async fn a_cancel_between_the_claim_and_the_holding_is_heard() {
+        let trial = Trial::in_memory().await;
+        trial.cancel().await;
         let (_planner, mut incumbent) = watch::channel(None);
-        let heard = Notify::new();
-        let hearing = async {
-            tokio::select! {
-                () = held.keep(&mut incumbent, || heard.notify_one()) => {}
-                () = heard.notified() => {}
+        trial.held_during(&mut incumbent, trial.heard.notified()).await;
+    }
+
+    #[tokio::test]
+    async fn a_note_is_one_write_and_no_reason_to_renew_the_lease() {
+        let trial = Trial::in_memory().await;
+        let (planner, mut incumbent) = watch::channel(None);
+        let notes = async {
+            for best in [9, 8, 7, 6].map(cost) {
+                planner.send(Some(best)).unwrap();
+                trial.keeps(best).await;
             }
+            // By the time that this is heard, all that came before has had its consequences.
+            trial.cancel().await;
+            trial.heard.notified().await;
         };
-        timeout(Duration::from_secs(15), hearing).await.expect("it is heard of at once");
+        trial.held_during(&mut incumbent, notes).await;
+        assert_eq!(trial.calls("note", "done"), 4);
+        // The first look, and the look after the cancel.
+        assert!((1..=2).contains(&trial.calls("renew", "done")), "{}", trial.metrics.text());
+    }
+
+    #[tokio::test]
+    async fn the_best_is_kept_whatever_happens_between_two_notes() {
+        let trial = Trial::in_memory().await;
+        let (planner, mut incumbent) = watch::channel(None);
+        let notes = async {
+            planner.send(Some(cost(9))).unwrap();
+            trial.keeps(cost(9)).await;
+            planner.send(Some(cost(8))).unwrap();
+            // It has been seen by now and is not to be noted yet; then there is something else to do.
+            for _ in 0..10 {
+                tokio::task::yield_now().await;
+            }
+            trial.store.hints().recalled(trial.claim.id);
+            trial.keeps(cost(8)).await;
+        };
+        trial.held_during(&mut incumbent, notes).await;
+    }
+
+    #[tokio::test]
+    async fn the_best_is_kept_once_the_store_is_back() {
+        let folder = std::env::temp_dir().join(JobId::new().to_string());
+        std::fs::create_dir(&folder).unwrap();
+        let url = format!("sqlite:{}", folder.join("jobs.db").display());
+        let trial = Trial::at(url.clone()).await;
+        let mut other = SqliteConnection::connect(&url).await.unwrap();
+        let mut execute = async |statement: &'static str| {
+            sqlx::raw_sql(AssertSqlSafe(statement)).execute(&mut other).await.unwrap();
+        };
+        execute("CREATE TRIGGER away BEFORE UPDATE OF cost ON jobs BEGIN SELECT RAISE(ABORT, 'away'); END").await;
+        let (planner, mut incumbent) = watch::channel(None);
+        let notes = async {
+            planner.send(Some(cost(9))).unwrap();
+            while trial.calls("note", "failed") == 0 {
+                sleep(Duration::from_millis(1)).await;
+            }
+            execute("DROP TRIGGER away").await;
+            trial.keeps(cost(9)).await;
+        };
+        trial.held_during(&mut incumbent, notes).await;
+        std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -11,12 +11,14 @@ use super::job::JobId;
 #[derive(Debug, Default)]
 pub struct Hints {
     watched: Arc<Watched>,
+    held: Arc<Watched>,
     /// Woken when a job may be there to be claimed.
     pub work: Notify,
     /// Woken when a callback may be due.
     pub callbacks: Notify,
 }
 
+/// Per job who is woken, and how many they are.
 type Watched = Mutex<HashMap<JobId, (Arc<Notify>, usize)>>;
 
 /// Waits for one job.
@@ -30,29 +32,49 @@ pub struct Watcher {
 impl Hints {
     /// Whoever watches the job looks again.
     pub fn changed(&self, id: JobId) {
-        if let Some((notify, _)) = lock(&self.watched).get(&id) {
-            notify.notify_waiters();
-        }
+        wake(&self.watched, id);
+    }
+
+    /// Whoever runs the job asks whether it is still to be run: it was cancelled, or its lease has ended.
+    pub fn recalled(&self, id: JobId) {
+        wake(&self.held, id);
     }
 
     /// Everybody looks again: changes may have gone unheard.
     pub fn all_changed(&self) {
-        lock(&self.watched).values().for_each(|(notify, _)| notify.notify_waiters());
+        for list in [&self.watched, &self.held] {
+            lock(list).values().for_each(|(notify, _)| notify.notify_waiters());
+        }
         self.work.notify_waiters();
         self.callbacks.notify_waiters();
     }
 
     /// Watch a job.
     pub fn watch(&self, id: JobId) -> Watcher {
-        let mut watched = lock(&self.watched);
-        let (notify, count) = watched.entry(id).or_default();
-        *count += 1;
-        Watcher { watched: Arc::clone(&self.watched), id, notify: Arc::clone(notify) }
+        Watcher::new(&self.watched, id)
+    }
+
+    /// Hear whether a job that runs here is still to be run. What its own worker writes is no reason to ask.
+    pub fn hold(&self, id: JobId) -> Watcher {
+        Watcher::new(&self.held, id)
+    }
+}
+
+fn wake(list: &Watched, id: JobId) {
+    if let Some((notify, _)) = lock(list).get(&id) {
+        notify.notify_waiters();
     }
 }
 
 impl Watcher {
-    /// Done once the job may have changed since this was called; a look at the job goes between the call and the waiting.
+    fn new(list: &Arc<Watched>, id: JobId) -> Self {
+        let mut watched = lock(list);
+        let (notify, count) = watched.entry(id).or_default();
+        *count += 1;
+        Self { watched: Arc::clone(list), id, notify: Arc::clone(notify) }
+    }
+
+    /// Done once there was a reason to look at the job since this was called; a look at the job goes between the call and the waiting.
     pub fn changed(&self) -> impl Future<Output = ()> + use<> {
         let mut notified = Box::pin(Arc::clone(&self.notify).notified_owned());
         notified.as_mut().enable();
@@ -85,7 +107,8 @@ mod tests {
     async fn a_watcher_hears_of_its_own_job_and_leaves_nothing_behind() {
         let hints = Hints::default();
         let (id, other) = (JobId::new(), JobId::new());
-        let (watcher, second) = (hints.watch(id), hints.watch(id));
+        let (watcher, second, holder) = (hints.watch(id), hints.watch(id), hints.hold(id));
+        let recall = holder.changed();
         let change = watcher.changed();
         hints.changed(other);
         hints.changed(id);
@@ -94,7 +117,20 @@ mod tests {
         let change = second.changed();
         hints.all_changed();
         change.await;
-        drop(second);
-        assert!(lock(&hints.watched).is_empty());
+        recall.await;
+        drop((second, holder));
+        assert!(lock(&hints.watched).is_empty() && lock(&hints.held).is_empty());
+    }
+    #[tokio::test]
+    async fn a_worker_hears_of_recalls_alone() {
+        let hints = Hints::default();
+        let id = JobId::new();
+        let (watcher, holder) = (hints.watch(id), hints.hold(id));
+        let (change, mut recall) = (watcher.changed(), holder.changed());
+        hints.changed(id);
+        change.await;
+        assert!(futures_util::poll!(&mut recall).is_pending());
+        hints.recalled(id);
+        recall.await;
     }
 }

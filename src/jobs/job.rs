@@ -177,6 +177,8 @@ pub struct Event {
     pub attempts: u32,
     /// The best by that time.
     pub incumbent: Option<Incumbent>,
+    /// How many jobs were to be taken before it and itself; only where it was queued.
+    pub queue_position: Option<u64>,
 }
 
 /// The kinds of event.

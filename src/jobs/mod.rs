@@ -33,4 +33,4 @@ pub use store::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_ATTEMPTS, MAX_INCUMBENT_EVENTS, Page, Removal,
     Renewal, Store, StoreError, SubmitError, Swept,
 };
-pub use timestamp::Timestamp;
+pub use timestamp::{Timestamp, WallClock};

@@ -19,7 +19,7 @@ use super::pause::Pause;
 use super::settings::JobSettings;
 use super::store::{Claimed, Store};
 use super::sweeper::sweep;
-use super::timestamp::Timestamp;
+use super::timestamp::{Timestamp, WallClock};
 use super::work::{Tools, Work};
 use crate::metrics::{Ended, Metrics, Queue};
 use crate::wire::RequestLimits;
@@ -84,7 +84,7 @@ impl Runner {
         let mut pause = Pause::default();
         while let Some(slot) = draining.unless_begun(self.slot()).await {
             let hint = self.store.hints().work.notified();
-            match self.store.claim(Timestamp::now()).await {
+            match self.store.claim(&WallClock::system()).await {
                 Ok(Some(claimed)) => {
                     pause = Pause::default();
                     tasks.spawn(Arc::clone(&self).attempt(claimed, slot, over.clone()));

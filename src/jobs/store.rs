@@ -23,7 +23,7 @@ use async_trait::async_trait;
 
 use super::hints::Hints;
 use super::job::{End, Job, JobId, JobState, NewJob, Owner};
-use super::timestamp::Timestamp;
+use super::timestamp::{Timestamp, WallClock};
 use crate::budget::Incumbent;
 
 /// How often a job may be begun. Whatever ended three workers would end a fourth.
@@ -31,7 +31,8 @@ pub const MAX_ATTEMPTS: u32 = 3;
 /// The most events of incumbents of one job; what comes later still is the job's `incumbent`.
 pub const MAX_INCUMBENT_EVENTS: usize = 100;
 
-/// The store could not be asked, or not answer. Nothing can be said of what was asked for: it may have happened.
+/// The store could not be asked, or not answer. What was to be changed has mostly not been: who waits too long gives up, and
+/// it is rolled back. But it may have been, if the commit itself was under way.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the store of jobs: {0}")]
 pub struct StoreError(pub String);
@@ -200,13 +201,13 @@ pub trait Store: Send + Sync + 'static {
     ///
     /// # Errors
     /// [`StoreError`].
-    async fn claim(&self, now: Timestamp) -> Result<Option<Claimed>, StoreError>;
+    async fn claim(&self, clock: &WallClock) -> Result<Option<Claimed>, StoreError>;
 
     /// Make the lease end a whole lease after now.
     ///
     /// # Errors
     /// [`StoreError`].
-    async fn renew(&self, claim: Claim, now: Timestamp) -> Result<Renewal, StoreError>;
+    async fn renew(&self, claim: Claim, clock: &WallClock) -> Result<Renewal, StoreError>;
 
     /// Keep the best so far: the least cost and the greatest bound of all that was noted. False if the claim is lost.
     ///
@@ -237,7 +238,7 @@ pub trait Store: Send + Sync + 'static {
     ///
     /// # Errors
     /// [`StoreError`].
-    async fn take_callback(&self, lease: Duration, now: Timestamp) -> Result<Option<Callback>, StoreError>;
+    async fn take_callback(&self, lease: Duration, clock: &WallClock) -> Result<Option<Callback>, StoreError>;
 
     /// What became of a callback's try.
     ///
@@ -256,6 +257,13 @@ pub trait Store: Send + Sync + 'static {
     /// # Errors
     /// [`StoreError`] if not.
     async fn ping(&self) -> Result<(), StoreError>;
+
+    /// Be done with it: what is being written is ended, nothing more is accepted. Where the store is a file, all jobs are in
+    /// that one file then, unless another process has it open.
+    ///
+    /// # Errors
+    /// [`StoreError`] if something is left open, or beside the file.
+    async fn close(&self) -> Result<(), StoreError>;
 
     /// Who is woken when something changes, here and, as far as the store can tell, elsewhere. Only hints: whoever waits
     /// for a change looks again now and then.

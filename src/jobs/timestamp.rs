@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::time::Duration;
+use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Milliseconds since 1970 in UTC. Displayed as RFC 3339 writes it.
@@ -33,6 +34,40 @@ impl Timestamp {
     /// How long ago the other was; nothing where it is still to come.
     pub fn since(self, earlier: Self) -> Duration {
         Duration::from_millis(u64::try_from(self.0.saturating_sub(earlier.0)).unwrap_or_default())
+    }
+}
+
+/// A clock that a store reads when a lease begins. A call may have waited seconds for its turn by then.
+#[derive(Clone)]
+pub struct WallClock(Arc<dyn Fn() -> Timestamp + Send + Sync>);
+
+impl WallClock {
+    /// The system's.
+    pub fn system() -> Self {
+        Self::new(Timestamp::now)
+    }
+
+    /// Shows what `now` says.
+    pub fn new(now: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
+        Self(Arc::new(now))
+    }
+
+    /// What it shows.
+    pub fn now(&self) -> Timestamp {
+        (self.0)()
+    }
+}
+
+impl fmt::Debug for WallClock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("WallClock").field(&self.now()).finish()
+    }
+}
+
+/// A clock that has stopped.
+impl From<Timestamp> for WallClock {
+    fn from(stopped: Timestamp) -> Self {
+        Self::new(move || stopped)
     }
 }
 

@@ -214,6 +214,12 @@ impl Problem {
         Self { errors, ..self }
     }
 
+    /// The same problem under another title, where the kind's own would mislead people.
+    #[must_use]
+    pub fn with_title(self, title: &'static str) -> Self {
+        Self { title, ..self }
+    }
+
     /// The same problem, and when to come again.
     #[must_use]
     pub fn with_retry_after(self, retry_after: Duration) -> Self {

@@ -12,6 +12,7 @@ mod database;
 mod drain;
 mod ends;
 mod events;
+mod file;
 mod keys;
 mod load;
 mod outage;

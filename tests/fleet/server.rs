@@ -46,6 +46,11 @@ impl Server {
         server
     }
 
+    /// What it has logged, warnings and worse.
+    pub(crate) fn log(&self) -> String {
+        std::fs::read_to_string(&self.log).unwrap()
+    }
+
     /// From one moment to the next.
     pub(crate) fn kill(&mut self) {
         self.child.kill().unwrap();

@@ -21,7 +21,7 @@ async fn jobs_in_a_file_outlive_their_server() {
     let kept = submitted(&home.store().await, job()).await;
     let store = home.store().await;
     assert_eq!(store.get(&ann(), kept.id).await.unwrap(), Some(kept.clone()));
-    assert_eq!(store.claim(at(1)).await.unwrap().unwrap().claim.id, kept.id);
+    assert_eq!(store.claim(&at(1).into()).await.unwrap().unwrap().claim.id, kept.id);
 }
 
 #[tokio::test]
@@ -47,6 +47,59 @@ async fn a_file_has_a_log_that_is_written_ahead() {
     let row = sqlx::query("PRAGMA journal_mode").fetch_one(&mut connection).await.unwrap();
     assert_eq!(row.get::<String, _>(0), "wal");
     store.ping().await.unwrap();
+}
+
+#[tokio::test]
+async fn a_closed_store_is_one_file_with_all_of_it() {
+    let home = Home::in_a_file();
+    let file = home.settings.url.strip_prefix("sqlite:").unwrap().to_owned();
+    let store = home.store().await;
+    let kept = submitted(&store, job()).await;
+    let beside = |ending| std::fs::metadata(format!("{file}{ending}"));
+    assert!(beside("-wal").unwrap().len() > 0, "else there would be nothing to be seen");
+    store.close().await.unwrap();
+    assert!(beside("-wal").is_err() && beside("-shm").is_err());
+    let copy = JobSettings { url: format!("sqlite:{file}.copy"), ..home.settings.clone() };
+    std::fs::copy(&file, format!("{file}.copy")).unwrap();
+    let copied = open(&copy, Arc::default()).await.unwrap();
+    assert_eq!(copied.get(&ann(), kept.id).await.unwrap(), Some(kept));
+}
+
+#[tokio::test]
+async fn a_file_that_others_have_open_is_complete_when_one_of_them_closes_it() {
+    let home = Home::in_a_file();
+    let (here, there) = (home.store().await, home.store().await);
+    submitted(&here, job()).await;
+    here.close().await.unwrap();
+    let log = format!("{}-wal", home.settings.url.strip_prefix("sqlite:").unwrap());
+    assert_eq!(std::fs::metadata(&log).unwrap().len(), 0);
+    submitted(&there, job()).await;
+    there.close().await.unwrap();
+    assert!(std::fs::metadata(&log).is_err());
+}
+
+#[tokio::test]
+async fn what_is_left_beside_a_file_is_told() {
+    let home = Home::in_a_file();
+    let store = home.store().await;
+    submitted(&store, job()).await;
+    // Somebody reads what was there before.
+    let mut reader = SqliteConnection::connect(&home.settings.url).await.unwrap();
+    sqlx::raw_sql("BEGIN; SELECT COUNT(*) FROM jobs").execute(&mut reader).await.unwrap();
+    submitted(&store, job()).await;
+    let error = store.close().await.unwrap_err();
+    assert!(error.to_string().contains("-wal"), "{error}");
+}
+
+#[tokio::test]
+async fn a_closed_store_says_so() {
+    for home in [Home::in_a_file(), Home::in_memory().await] {
+        let store = home.store().await;
+        store.close().await.unwrap();
+        assert!(store.submit(&[job()], at(0)).await.is_err());
+        assert!(store.get(&ann(), job().id).await.is_err());
+        store.close().await.unwrap();
+    }
 }
 
 #[tokio::test]

@@ -23,7 +23,7 @@ async fn ended(store: &Arc<dyn Store>) -> JobId {
 
 /// Which try is due.
 async fn taken(store: &Arc<dyn Store>, millis: i64) -> Option<u32> {
-    store.take_callback(LEASE, at(millis)).await.unwrap().map(|callback| callback.attempt)
+    store.take_callback(LEASE, &at(millis).into()).await.unwrap().map(|callback| callback.attempt)
 }
 
 pub(crate) async fn a_callback_is_due_at_the_end(home: &Home) {
@@ -33,9 +33,9 @@ pub(crate) async fn a_callback_is_due_at_the_end(home: &Home) {
     let waiting = submitted(&store, calling()).await.id;
     let claim = claimed(&store, 9).await.claim;
     assert_eq!(claim.id, waiting);
-    assert_eq!(store.take_callback(LEASE, at(9)).await.unwrap(), None);
+    assert_eq!(store.take_callback(LEASE, &at(9).into()).await.unwrap(), None);
     assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(10)).await.unwrap());
-    let callback = store.take_callback(LEASE, at(10)).await.unwrap().unwrap();
+    let callback = store.take_callback(LEASE, &at(10).into()).await.unwrap().unwrap();
     assert_eq!((callback.url.as_str(), callback.attempt), ("https://example.org/told", 1));
     assert_eq!(callback.job, seen(&store, waiting).await);
     assert_eq!(callback.job.result.as_deref(), Some("{}"));
@@ -60,18 +60,18 @@ pub(crate) async fn an_older_try_has_no_say(home: &Home) {
     let store = home.store().await;
     let id = ended(&store).await;
     for (millis, attempt) in [(10, 1), (60, 2)] {
-        assert_eq!(store.take_callback(LEASE, at(millis)).await.unwrap().unwrap().attempt, attempt);
+        assert_eq!(store.take_callback(LEASE, &at(millis).into()).await.unwrap().unwrap().attempt, attempt);
     }
     store.settle_callback(id, 1, Delivery::Over).await.unwrap();
-    assert_eq!(store.take_callback(LEASE, at(110)).await.unwrap().unwrap().attempt, 3);
+    assert_eq!(store.take_callback(LEASE, &at(110).into()).await.unwrap().unwrap().attempt, 3);
     store.settle_callback(id, 3, Delivery::Over).await.unwrap();
     // What is over stays so, and what is forgotten is nobody's concern.
     store.settle_callback(id, 3, Delivery::Again(at(120))).await.unwrap();
-    assert_eq!(store.take_callback(LEASE, at(500)).await.unwrap(), None);
+    assert_eq!(store.take_callback(LEASE, &at(500).into()).await.unwrap(), None);
     let id = ended(&store).await;
     store.forget(&ann(), id).await.unwrap();
     store.settle_callback(id, 1, Delivery::Over).await.unwrap();
-    assert_eq!(store.take_callback(LEASE, at(500)).await.unwrap(), None);
+    assert_eq!(store.take_callback(LEASE, &at(500).into()).await.unwrap(), None);
 }
 
 pub(crate) async fn every_kind_of_end_is_called_back(home: &Home) {
@@ -95,10 +95,10 @@ pub(crate) async fn every_kind_of_end_is_called_back(home: &Home) {
         (expired, JobState::Expired),
     ];
     for (id, state) in ends {
-        let callback = store.take_callback(LEASE, at(1000)).await.unwrap().unwrap();
+        let callback = store.take_callback(LEASE, &at(1000).into()).await.unwrap().unwrap();
         assert_eq!((callback.job.id, callback.job.state, callback.attempt), (id, state, 1));
     }
-    assert_eq!(store.take_callback(LEASE, at(1000)).await.unwrap(), None);
+    assert_eq!(store.take_callback(LEASE, &at(1000).into()).await.unwrap(), None);
 }
 
 pub(crate) async fn callbacks_at_once_are_taken_once(home: &Home) {
@@ -112,14 +112,14 @@ pub(crate) async fn callbacks_at_once_are_taken_once(home: &Home) {
         let store = Arc::clone(if turn % 2 == 0 { &store } else { &other });
         calls.spawn(async move {
             let mut taken = Vec::new();
-            while let Some(callback) = store.take_callback(LEASE, at(20)).await.unwrap() {
+            while let Some(callback) = store.take_callback(LEASE, &at(20).into()).await.unwrap() {
                 taken.push(callback.job.id);
             }
             taken
         });
     }
     let mut taken = calls.join_all().await.concat();
-    while let Some(callback) = store.take_callback(LEASE, at(20)).await.unwrap() {
+    while let Some(callback) = store.take_callback(LEASE, &at(20).into()).await.unwrap() {
         taken.push(callback.job.id);
     }
     taken.sort_unstable();

@@ -13,21 +13,21 @@ pub(crate) async fn a_queued_job_is_cancelled_at_once(home: &Home) {
     assert_eq!(job.version.as_deref(), Some(env!("CARGO_PKG_VERSION")));
     assert_eq!(job.events.iter().map(|event| event.kind).collect::<Vec<_>>(), [EventKind::Queued, EventKind::Finished]);
     assert_eq!(*job, seen(&store, id).await);
-    assert_eq!(store.claim(at(6)).await.unwrap(), None);
+    assert_eq!(store.claim(&at(6).into()).await.unwrap(), None);
 }
 
 pub(crate) async fn a_running_job_is_cancelled_with_its_answer(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     let claim = claimed(&store, 1).await.claim;
-    assert_eq!(store.renew(claim, at(2)).await.unwrap(), Renewal::Held);
+    assert_eq!(store.renew(claim, &at(2).into()).await.unwrap(), Renewal::Held);
     for millis in [3, 4] {
         let Cancellation::Accepted(job) = store.cancel(&ann(), id, at(millis)).await.unwrap() else {
             panic!("not accepted")
         };
         assert_eq!((job.state, job.finished_at), (JobState::Running, None));
     }
-    assert_eq!(store.renew(claim, at(5)).await.unwrap(), Renewal::Cancelled);
+    assert_eq!(store.renew(claim, &at(5).into()).await.unwrap(), Renewal::Cancelled);
     assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(6)).await.unwrap());
     let ended = seen(&store, id).await;
     assert_eq!((ended.state, ended.result.as_deref()), (JobState::Cancelled, Some("{}")));
@@ -76,7 +76,7 @@ pub(crate) async fn a_job_that_waited_too_long_expires(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     assert_eq!(store.sweep(at(999)).await.unwrap(), Swept::default());
-    assert_eq!(store.claim(at(1000)).await.unwrap(), None);
+    assert_eq!(store.claim(&at(1000).into()).await.unwrap(), None);
     assert_eq!(store.sweep(at(1000)).await.unwrap(), Swept { expired: vec![id], ..Swept::default() });
     let expired = seen(&store, id).await;
     assert_eq!((expired.state, expired.finished_at), (JobState::Expired, Some(at(1000))));
@@ -88,7 +88,7 @@ pub(crate) async fn a_job_that_begins_in_time_may_take_longer(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     let claim = claimed(&store, 999).await.claim;
-    assert_eq!(store.renew(claim, at(1050)).await.unwrap(), Renewal::Held);
+    assert_eq!(store.renew(claim, &at(1050).into()).await.unwrap(), Renewal::Held);
     assert_eq!(store.sweep(at(1060)).await.unwrap(), Swept::default());
     assert_eq!(seen(&store, id).await.state, JobState::Running);
 }

@@ -29,10 +29,10 @@ pub(crate) async fn what_waits_for_a_worker_wakes_workers(home: &Home) {
     let watcher = store.hints().watch(new.id);
     waking(&watcher, store.submit(&[new], at(0))).await;
     woken(&store.hints().work).await;
-    let work = waking(&watcher, store.claim(at(1))).await.unwrap();
+    let work = waking(&watcher, store.claim(&at(1).into())).await.unwrap();
     assert!(waking(&watcher, store.hand_back(work.claim, at(2))).await);
     woken(&store.hints().work).await;
-    waking(&watcher, store.claim(at(3))).await.unwrap();
+    waking(&watcher, store.claim(&at(3).into())).await.unwrap();
     waking(&watcher, store.sweep(at(103))).await;
     woken(&store.hints().work).await;
 }
@@ -41,7 +41,7 @@ pub(crate) async fn a_change_wakes_who_waits_for_it(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, calling()).await.id;
     let watcher = store.hints().watch(id);
-    let claim = waking(&watcher, store.claim(at(1))).await.unwrap().claim;
+    let claim = waking(&watcher, store.claim(&at(1).into())).await.unwrap().claim;
     waking(&watcher, store.note(claim, Incumbent { cost: 2, lower_bound: 1 }, at(2))).await;
     waking(&watcher, store.cancel(&ann(), id, at(3))).await;
     waking(&watcher, store.finish(claim, &End::Succeeded("{}".to_owned()), at(4))).await;

@@ -144,7 +144,7 @@ pub(crate) async fn submitted(store: &Arc<dyn Store>, new: NewJob) -> Job {
 }
 
 pub(crate) async fn claimed(store: &Arc<dyn Store>, millis: i64) -> Claimed {
-    store.claim(at(millis)).await.unwrap().unwrap()
+    store.claim(&at(millis).into()).await.unwrap().unwrap()
 }
 
 /// Ann's job as it stands.

@@ -16,7 +16,7 @@ pub(crate) async fn a_worker_that_renews_keeps_its_job(home: &Home) {
     let id = submitted(&store, job()).await.id;
     let claim = claimed(&store, 0).await.claim;
     assert_eq!(store.sweep(at(99)).await.unwrap(), Swept::default());
-    assert_eq!(store.renew(claim, at(99)).await.unwrap(), Renewal::Held);
+    assert_eq!(store.renew(claim, &at(99).into()).await.unwrap(), Renewal::Held);
     assert_eq!(store.sweep(at(198)).await.unwrap(), Swept::default());
     assert_eq!(seen(&store, id).await.state, JobState::Running);
     assert_eq!(store.sweep(at(199)).await.unwrap(), Swept { requeued: vec![id], ..Swept::default() });
@@ -29,7 +29,7 @@ pub(crate) async fn a_worker_that_renews_keeps_its_job(home: &Home) {
 /// Whatever this claim's worker says, nothing changes.
 async fn is_lost(store: &Arc<dyn Store>, claim: Claim, millis: i64) {
     let before = seen(store, claim.id).await;
-    assert_eq!(store.renew(claim, at(millis)).await.unwrap(), Renewal::Lost);
+    assert_eq!(store.renew(claim, &at(millis).into()).await.unwrap(), Renewal::Lost);
     assert!(!store.note(claim, Incumbent { cost: 1, lower_bound: 1 }, at(millis)).await.unwrap());
     assert!(!store.finish(claim, &answer(), at(millis)).await.unwrap());
     assert!(!store.hand_back(claim, at(millis)).await.unwrap());
@@ -57,7 +57,7 @@ pub(crate) async fn an_end_is_kept_once_and_may_be_told_twice(home: &Home) {
     let ended = seen(&store, id).await;
     assert!(store.finish(claim, &answer(), at(160)).await.unwrap());
     assert_eq!(seen(&store, id).await, ended);
-    assert_eq!(store.renew(claim, at(161)).await.unwrap(), Renewal::Lost);
+    assert_eq!(store.renew(claim, &at(161).into()).await.unwrap(), Renewal::Lost);
     assert!(!store.hand_back(claim, at(161)).await.unwrap());
     assert!(!store.note(claim, Incumbent { cost: 1, lower_bound: 1 }, at(161)).await.unwrap());
     assert_eq!(seen(&store, id).await, ended);
@@ -101,7 +101,7 @@ pub(crate) async fn the_third_lost_worker_ends_a_job(home: &Home) {
         let (requeued, poisoned) = if attempt < MAX_ATTEMPTS { (vec![id], Vec::new()) } else { (Vec::new(), vec![id]) };
         assert_eq!(swept, Swept { requeued, poisoned, ..Swept::default() });
     }
-    assert_eq!(store.claim(at(710)).await.unwrap(), None);
+    assert_eq!(store.claim(&at(710).into()).await.unwrap(), None);
     let failed = seen(&store, id).await;
     assert_eq!((failed.state, failed.attempts, failed.finished_at), (JobState::Failed, 3, Some(at(700))));
     let problem: serde_json::Value = serde_json::from_str(failed.problem.as_deref().unwrap()).unwrap();

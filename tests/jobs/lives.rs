@@ -6,7 +6,7 @@ use singulate::jobs::{Counts, End, Event, EventKind, Job, JobState, MAX_INCUMBEN
 use crate::home::{Home, ann, at, bob, claimed, job, seen, submitted};
 
 fn event(kind: EventKind, millis: i64, attempts: u32, incumbent: Option<Incumbent>) -> Event {
-    Event { kind, at: at(millis), attempts, incumbent }
+    Event { kind, at: at(millis), attempts, incumbent, queue_position: (kind == EventKind::Queued).then_some(1) }
 }
 
 pub(crate) async fn a_job_is_queued_runs_and_succeeds(home: &Home) {
@@ -91,7 +91,7 @@ pub(crate) async fn any_text_and_a_long_body_come_back_as_they_were(home: &Home)
     let result = format!("\"{}\"", "é".repeat(1_000_000));
     assert!(store.finish(work.claim, &End::Succeeded(result.clone()), at(2)).await.unwrap());
     assert!(seen(&store, accepted.id).await.result == Some(result));
-    let callback = store.take_callback(home.settings.lease, at(3)).await.unwrap().unwrap();
+    let callback = store.take_callback(home.settings.lease, &at(3).into()).await.unwrap().unwrap();
     assert_eq!(Some(callback.url), callback_url);
 }
 

@@ -17,6 +17,7 @@ mod model;
 mod order;
 mod postgres;
 mod random;
+mod timeouts;
 mod together;
 
 use home::Home;
@@ -39,6 +40,28 @@ macro_rules! over_every_store {
             })*
         }
     };
+}
+
+/// Each of these tests over each kind of store that others can write to as well.
+macro_rules! over_every_shared_store {
+    ($($file:ident::$test:ident)*) => {
+        mod in_a_shared_file {
+            $(#[tokio::test] async fn $test() { crate::$file::$test(&crate::Home::in_a_file()).await; })*
+        }
+        mod in_a_shared_postgres {
+            $(#[tokio::test] async fn $test() {
+                if let Some(home) = crate::Home::in_postgres().await {
+                    crate::$file::$test(&home).await;
+                    home.remove().await;
+                }
+            })*
+        }
+    };
+}
+
+over_every_shared_store! {
+    timeouts::what_has_timed_out_has_not_happened
+    timeouts::a_lease_begins_when_the_store_can_write
 }
 
 over_every_store! {
@@ -87,6 +110,8 @@ over_every_store! {
     callbacks::an_older_try_has_no_say
     callbacks::every_kind_of_end_is_called_back
     callbacks::callbacks_at_once_are_taken_once
+    timeouts::a_claim_that_nobody_waits_for_any_more_is_handed_back
+    timeouts::a_callback_that_nobody_waits_for_any_more_is_due_at_once
     hints::what_waits_for_a_worker_wakes_workers
     hints::a_change_wakes_who_waits_for_it
 }

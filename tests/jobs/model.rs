@@ -26,7 +26,7 @@ pub(crate) struct Entry {
 impl Entry {
     fn tell(&mut self, kind: EventKind, now: Timestamp) {
         let Job { attempts, incumbent, .. } = self.job;
-        self.job.events.push(Event { kind, at: now, attempts, incumbent });
+        self.job.events.push(Event { kind, at: now, attempts, incumbent, queue_position: None });
     }
 
     fn end(&mut self, state: JobState, now: Timestamp) {
@@ -74,6 +74,7 @@ impl Model {
             let turn = self.turn(new);
             self.entries.push(entry(new, turn, now));
         }
+        self.tell_places();
         Ok(jobs.iter().map(|job| job.id).collect())
     }
 
@@ -87,6 +88,15 @@ impl Model {
 
     pub(crate) fn count(&self, state: JobState) -> usize {
         self.entries.iter().filter(|entry| entry.job.state == state).count()
+    }
+
+    /// Jobs that have just been queued are told their places.
+    fn tell_places(&mut self) {
+        let queue: Vec<JobId> = self.queue().iter().map(|entry| entry.job.id).collect();
+        for (id, place) in queue.into_iter().zip(1..) {
+            let told = self.find(id).and_then(|entry| entry.job.events.last_mut());
+            told.unwrap().queue_position.get_or_insert(place);
+        }
     }
 
     /// The waiting jobs, first the one that is claimed next.
@@ -164,6 +174,7 @@ impl Model {
             entry.job.started_at = None;
         }
         entry.tell(EventKind::Queued, now);
+        self.tell_places();
         true
     }
 
@@ -192,6 +203,7 @@ impl Model {
                 entry.tell(EventKind::Queued, now);
             }
         }
+        self.tell_places();
         let late = |entry: &&mut Entry| entry.job.state == JobState::Queued && entry.job.expires_at <= now;
         for entry in self.entries.iter_mut().filter(late) {
             swept.expired.push(entry.job.id);

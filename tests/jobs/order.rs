@@ -9,7 +9,7 @@ use crate::home::{Home, ann, at, bob, claimed, job, submitted};
 /// Everything that waits, in the order in which it is claimed.
 async fn claims(store: &Arc<dyn Store>) -> Vec<JobId> {
     let mut ids = Vec::new();
-    while let Some(work) = store.claim(at(1)).await.unwrap() {
+    while let Some(work) = store.claim(&at(1).into()).await.unwrap() {
         ids.push(work.claim.id);
     }
     ids

@@ -42,7 +42,7 @@ async fn broken_connections_are_made_again() {
     );
     execute(&postgres_url().unwrap(), &ours).await;
     let begin = Instant::now();
-    while here.claim(at(1)).await.is_err() {
+    while here.claim(&at(1).into()).await.is_err() {
         assert!(begin.elapsed() < PATIENCE);
         sleep(Duration::from_millis(20)).await;
     }

@@ -147,7 +147,7 @@ impl Trial {
     }
 
     async fn claim(&mut self, worker: usize) {
-        let work = self.store.claim(self.now).await.unwrap();
+        let work = self.store.claim(&self.now.into()).await.unwrap();
         let claim = self.model.claim(self.now);
         assert_eq!(work.as_ref().map(|work| work.claim), claim);
         let Some(work) = work else { return };
@@ -166,7 +166,7 @@ impl Trial {
                     Some(true) => Renewal::Cancelled,
                     Some(false) => Renewal::Held,
                 };
-                assert_eq!(store.renew(claim, now).await.unwrap(), expected);
+                assert_eq!(store.renew(claim, &now.into()).await.unwrap(), expected);
             }
             Step::Note { incumbent, .. } => {
                 assert_eq!(store.note(claim, *incumbent, now).await.unwrap(), model.note(claim, *incumbent, now));

@@ -47,7 +47,7 @@ pub(crate) async fn claims_at_once_get_each_job_once(home: &Home) {
             let mut mine = Vec::new();
             // Nothing to claim may also mean that others are just claiming the last.
             while !matches!(store.counts().await, Ok(counts) if counts.queued == 0) {
-                mine.extend(store.claim(at(1)).await.ok().flatten().map(|work| work.claim.id));
+                mine.extend(store.claim(&at(1).into()).await.ok().flatten().map(|work| work.claim.id));
             }
             mine
         });

@@ -158,7 +158,7 @@ async fn a_job_whose_worker_is_lost_says_so_and_is_resumed() {
     let id = jobs.submit(SCENE).await;
     // By a worker whose lease ended long ago.
     let long_ago = Timestamp::from_millis(0);
-    assert_eq!(jobs.store.claim(long_ago).await.unwrap().unwrap().claim.id, id);
+    assert_eq!(jobs.store.claim(&long_ago.into()).await.unwrap().unwrap().claim.id, id);
     jobs.work_until(Engine::default(), id, JobState::Succeeded).await;
     let lines = jobs.lines(id);
     let [lost, start, end] = &lines[..] else { panic!("{lines:?}") };

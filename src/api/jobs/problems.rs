@@ -34,7 +34,8 @@ pub(super) fn not_accepted(app: &App, error: SubmitError) -> Problem {
 
 /// There is no such job.
 pub(super) fn no_such_job() -> Problem {
-    Problem::new(ProblemKind::NotFound, "there is no job of this name, or no longer")
+    let detail = "there is no job of this name, or no longer";
+    Problem::new(ProblemKind::NotFound, detail).with_title("There is no such job")
 }
 
 /// A job's name in a path.

@@ -19,7 +19,7 @@ use super::silent::SilentReceivers;
 use crate::jobs::job::{Job, JobId};
 use crate::jobs::settings::JobSettings;
 use crate::jobs::store::{Callback, Delivery, Store};
-use crate::jobs::timestamp::Timestamp;
+use crate::jobs::timestamp::{Timestamp, WallClock};
 use crate::metrics::{CallbackOutcome, Metrics};
 
 /// Tries at a time. Each holds a job with its answer, a few megabytes at the most, and a connection.
@@ -172,7 +172,7 @@ impl CallbackDelivery {
     /// Begin what is due, as far as there is room.
     async fn begin_due(self: &Arc<Self>, tries: &mut JoinSet<()>) {
         while tries.len() < MAX_IN_FLIGHT {
-            match self.store.take_callback(self.pace.lease, Timestamp::now()).await {
+            match self.store.take_callback(self.pace.lease, &WallClock::system()).await {
                 Ok(Some(callback)) => {
                     let this = Arc::clone(self);
                     tries.spawn(async move { this.deal_with(callback).await });

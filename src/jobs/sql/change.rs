@@ -1,8 +1,11 @@
 //! One transaction that writes, and the two things that can happen to a job on the way: it ends, or waits again.
 
+use core::cmp::Reverse;
+
 use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Error, Row, Transaction};
 
+use super::call::Decision;
 use super::dialect::Dialect;
 use super::events;
 use super::herald::News;
@@ -13,7 +16,7 @@ use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, 
 
 /// What has to be known of a job before it is changed.
 pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \
-    CASE WHEN callback_url IS NULL THEN 0 ELSE 1 END AS has_callback FROM jobs";
+    priority, turn, CASE WHEN callback_url IS NULL THEN 0 ELSE 1 END AS has_callback FROM jobs";
 
 /// How a job stands when it is about to change.
 #[derive(Debug)]
@@ -27,6 +30,8 @@ pub(super) struct Standing {
     /// The fence of the claim that ended it.
     pub(super) ended_by: Option<i64>,
     pub(super) incumbent: Option<Incumbent>,
+    pub(super) priority: i64,
+    pub(super) turn: i64,
     /// Somebody is told of its end.
     pub(super) has_callback: bool,
 }
@@ -42,6 +47,8 @@ impl Standing {
             cancel_requested: row.try_get::<i64, _>("cancel_requested")? != 0,
             ended_by: row.try_get("ended_by")?,
             incumbent: row::incumbent(row)?,
+            priority: row.try_get("priority")?,
+            turn: row.try_get("turn")?,
             has_callback: row.try_get::<i64, _>("has_callback")? != 0,
         })
     }
@@ -51,9 +58,18 @@ impl Standing {
         self.state == JobState::Running && self.fence == claim.fence
     }
 
+    /// The less it is, the earlier the job is claimed.
+    pub(super) fn order(&self) -> impl Ord + use<> {
+        (Reverse(self.priority), self.turn, self.id)
+    }
+
     /// The line of what happens to it now.
-    pub(super) fn event(&self, kind: EventKind, attempts: u32, now: Timestamp) -> String {
-        events::line(&Event { kind, at: now, attempts, incumbent: self.incumbent })
+    pub(super) fn line(&self, kind: EventKind, attempts: u32, now: Timestamp) -> String {
+        events::line(&self.event(kind, attempts, now))
+    }
+
+    fn event(&self, kind: EventKind, attempts: u32, now: Timestamp) -> Event {
+        Event { kind, at: now, attempts, incumbent: self.incumbent, queue_position: None }
     }
 }
 
@@ -78,17 +94,21 @@ impl Ending<'_> {
 pub(super) struct Change<'a> {
     store: &'a SqlStore,
     transaction: Transaction<'static, Any>,
+    decision: Decision,
     news: Vec<News>,
 }
 
 impl<'a> Change<'a> {
-    pub(super) async fn begin(store: &'a SqlStore) -> Result<Self, Error> {
+    /// To begin may take seconds; whoever asked for it may have given up by then.
+    pub(super) async fn begin(store: &'a SqlStore, decision: Decision) -> Result<Self, Error> {
         let transaction = store.writers.begin_with(store.dialect.begin()).await?;
-        Ok(Self { store, transaction, news: Vec::new() })
+        decision.open()?;
+        Ok(Self { store, transaction, decision, news: Vec::new() })
     }
 
-    /// Everything is on disk, and whoever waits hears of it.
+    /// Everything is on disk, and whoever waits hears of it; or whoever asked for it has given up, and nothing happens.
     pub(super) async fn commit(self) -> Result<(), Error> {
+        self.decision.commit()?;
         self.transaction.commit().await?;
         self.store.herald.announce(&self.news);
         Ok(())
@@ -106,9 +126,9 @@ impl<'a> Change<'a> {
         &self.store.settings
     }
 
-    /// The job has changed; with `queued` it waits for a worker now.
-    pub(super) fn announce(&mut self, id: JobId, queued: bool) {
-        self.news.push(News { id, queued, callback: false });
+    /// To be told once everything is on disk.
+    pub(super) fn announce(&mut self, news: News) {
+        self.news.push(news);
     }
 
     /// How the job stands. Until the transaction ends, nobody else changes it.
@@ -134,26 +154,29 @@ impl<'a> Change<'a> {
             .bind(ending.problem)
             .bind(ending.by)
             .bind(env!("CARGO_PKG_VERSION"))
-            .bind(job.event(EventKind::Finished, job.attempts, now))
+            .bind(job.line(EventKind::Finished, job.attempts, now))
             .execute(self.connection())
             .await?;
-        self.news.push(News { id: job.id, queued: false, callback: job.has_callback });
+        // A worker that ends its job itself need not look.
+        let recall = ending.by.is_none();
+        self.announce(News { callback: job.has_callback, recall, ..News::of(job.id) });
         Ok(())
     }
 
     /// The job waits for a worker again, in the place that it had.
     pub(super) async fn requeue(&mut self, job: &Standing, attempts: u32, now: Timestamp) -> Result<(), Error> {
-        let query = sqlx::query(
-            "UPDATE jobs SET state = 'queued', attempts = $2, events = events || $3, lease_ends = NULL, \
+        let text = format!(
+            "UPDATE jobs SET state = 'queued', attempts = $2, events = events || $3 || CAST({} AS TEXT) || '\n', lease_ends = NULL, \
              started_at = CASE WHEN $2 = 0 THEN NULL ELSE started_at END WHERE id = $1",
+            row::place("jobs.priority", "jobs.turn", "jobs.id"),
         );
-        query
+        sqlx::query(AssertSqlSafe(text))
             .bind(job.id.to_string())
             .bind(i64::from(attempts))
-            .bind(job.event(EventKind::Queued, attempts, now))
+            .bind(events::up_to_the_place(&job.event(EventKind::Queued, attempts, now)))
             .execute(self.connection())
             .await?;
-        self.announce(job.id, true);
+        self.announce(News { queued: true, recall: true, ..News::of(job.id) });
         Ok(())
     }
 }

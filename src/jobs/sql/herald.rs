@@ -24,7 +24,7 @@ const MAX_WAITING: usize = 10_000;
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// A job has changed.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct News {
     /// Which.
     pub(super) id: JobId,
@@ -32,6 +32,15 @@ pub(super) struct News {
     pub(super) queued: bool,
     /// A callback is due now.
     pub(super) callback: bool,
+    /// Its worker has to look: it was cancelled, or lost.
+    pub(super) recall: bool,
+}
+
+impl News {
+    /// It has changed, and no more is to be done than to look.
+    pub(super) fn of(id: JobId) -> Self {
+        Self { id, queued: false, callback: false, recall: false }
+    }
 }
 
 #[derive(Debug)]
@@ -89,19 +98,24 @@ fn wake(hints: &Hints, news: &News) {
     if news.callback {
         hints.callbacks.notify_one();
     }
+    if news.recall {
+        hints.recalled(news.id);
+    }
 }
 
-/// One change as a word: the job, then what it is ready for.
+/// One change as a word: the job, then what there is to do.
 fn word(news: &News) -> String {
-    let (queued, callback) = (if news.queued { "+work" } else { "" }, if news.callback { "+callback" } else { "" });
-    format!(" {}{queued}{callback}", news.id)
+    let parts = [(news.queued, "+work"), (news.callback, "+callback"), (news.recall, "+recall")];
+    let told: String = parts.into_iter().filter(|(so, _)| *so).map(|(_, part)| part).collect();
+    format!(" {}{told}", news.id)
 }
 
 fn read(word: &str) -> Option<News> {
     let mut parts = word.split('+');
     let id = parts.next()?.parse().ok()?;
-    let ready: Vec<&str> = parts.collect();
-    Some(News { id, queued: ready.contains(&"work"), callback: ready.contains(&"callback") })
+    let parts: Vec<&str> = parts.collect();
+    let told = |part| parts.contains(&part);
+    Some(News { id, queued: told("work"), callback: told("callback"), recall: told("recall") })
 }
 
 async fn tell(pool: AnyPool, name: String, mut waiting: Receiver<News>) {
@@ -156,10 +170,10 @@ mod tests {
 
     #[test]
     fn what_is_told_is_what_is_heard() {
-        for (queued, callback) in [(false, false), (true, false), (false, true), (true, true)] {
-            let told = News { id: JobId::new(), queued, callback };
-            let heard = read(word(&told).trim_start()).unwrap();
-            assert_eq!((heard.id, heard.queued, heard.callback), (told.id, queued, callback));
+        for bits in 0..8 {
+            let [queued, callback, recall] = [1, 2, 4].map(|bit| bits & bit != 0);
+            let told = News { id: JobId::new(), queued, callback, recall };
+            assert_eq!(read(word(&told).trim_start()), Some(told));
             assert!(word(&told).len() < 60, "a hundred of them fit into a notification");
         }
         assert!(read("nonsense").is_none());

@@ -5,10 +5,11 @@ use std::sync::{Arc, Once};
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::migrate::MigrateError;
-use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection, Error, Row};
-use tokio::time::{Instant, sleep};
+use sqlx::{AnyConnection, ConnectOptions, Connection, Error};
+use tokio_util::task::TaskTracker;
 
 use super::dialect::Dialect;
+use super::file;
 use super::herald::Herald;
 use super::store::{SharedStore, SqlStore};
 use crate::jobs::{JobSettings, Store};
@@ -26,8 +27,6 @@ const POSTGRES_WAIT: Duration = Duration::from_secs(2);
 /// Every question is answered in milliseconds. What takes longer than this, a lock that is not released among them, fails.
 /// A server that vanished within a transaction holds up others no longer either.
 const POSTGRES_LIMITS: &str = "SET statement_timeout = '5s'; SET idle_in_transaction_session_timeout = '5s'";
-/// How long other processes that open the same file at the same time may keep us from it.
-const OPENING: Duration = Duration::from_secs(30);
 
 /// Why there is no store.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -77,8 +76,17 @@ async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStor
     let pool = pool.before_acquire(|connection, _| Box::pin(async move { Ok(!connection.is_in_transaction()) }));
     let writing = "PRAGMA busy_timeout = 5000; PRAGMA synchronous = FULL";
     let reading = "PRAGMA busy_timeout = 5000; PRAGMA query_only = ON";
-    let writers = on_connect(pool.clone().max_connections(1), writing).connect_with(options.clone()).await?;
-    use_write_ahead_log(&writers).await?;
+    let connect = || on_connect(pool.clone().max_connections(1), writing).connect_with(options.clone());
+    let mut writers = connect().await?;
+    file::use_write_ahead_log(&writers).await?;
+    if !memory && file::is_shared(&writers).await? {
+        tracing::warn!(
+            file = path,
+            "another process has this file of jobs open; they share its jobs if it is a server"
+        );
+        writers.close().await;
+        writers = connect().await?;
+    }
     // In one transaction: of two processes that start at once, one makes the tables and the other finds them.
     let mut transaction = writers.begin_with(Dialect::Sqlite.begin()).await?;
     migrate(&mut transaction, Dialect::Sqlite).await?;
@@ -89,8 +97,8 @@ async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStor
         true => writers.clone(),
         false => on_connect(pool.max_connections(SQLITE_READERS), reading).connect_with(options).await?,
     };
-    let herald = Herald::alone();
-    Ok(SqlStore { dialect: Dialect::Sqlite, settings: settings.clone(), writers, readers, herald, metrics })
+    let (dialect, settings, herald) = (Dialect::Sqlite, settings.clone(), Herald::alone());
+    Ok(SqlStore { dialect, settings, writers, readers, tasks: TaskTracker::new(), herald, metrics })
 }
 
 async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
@@ -102,8 +110,8 @@ async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlSt
     connection.close().await?;
     let pool = on_connect(pool, POSTGRES_LIMITS).connect_with(options).await?;
     let herald = Herald::among_others(&settings.url, &pool).await?;
-    let (settings, readers) = (settings.clone(), pool.clone());
-    Ok(SqlStore { dialect: Dialect::Postgres, settings, writers: pool, readers, herald, metrics })
+    let (dialect, settings, readers) = (Dialect::Postgres, settings.clone(), pool.clone());
+    Ok(SqlStore { dialect, settings, writers: pool, readers, tasks: TaskTracker::new(), herald, metrics })
 }
 
 /// Each new connection begins with these statements.
@@ -111,20 +119,6 @@ fn on_connect(pool: AnyPoolOptions, statements: &'static str) -> AnyPoolOptions 
     pool.after_connect(move |connection, _| {
         Box::pin(async move { sqlx::raw_sql(statements).execute(connection).await.map(drop) })
     })
-}
-
-/// The file remembers it, so it happens once. Whoever is refused because another process is at it tries again: SQLite
-/// does not wait for this lock by itself.
-async fn use_write_ahead_log(writers: &AnyPool) -> Result<(), Error> {
-    let begin = Instant::now();
-    loop {
-        match sqlx::query("PRAGMA journal_mode = WAL").fetch_one(writers).await {
-            Err(Error::Database(error)) if error.message().contains("locked") && begin.elapsed() < OPENING => {
-                sleep(Duration::from_millis(20)).await;
-            }
-            answer => return answer.and_then(|row| row.try_get::<String, _>(0)).map(drop),
-        }
-    }
 }
 
 /// Takes PostgreSQL's lock for migrations meanwhile; SQLite has none.

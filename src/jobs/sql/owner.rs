@@ -3,6 +3,7 @@
 use sqlx::Error;
 
 use super::change::{Change, Ending, Standing};
+use super::herald::News;
 use super::row;
 use crate::jobs::{Cancellation, JobId, JobState, Owner, Removal, Timestamp};
 
@@ -23,7 +24,7 @@ pub(super) async fn cancel(
         JobState::Running => {
             let query = sqlx::query("UPDATE jobs SET cancel_requested = 1 WHERE id = $1").bind(id.to_string());
             query.execute(change.connection()).await?;
-            change.announce(id, false);
+            change.announce(News { recall: true, ..News::of(id) });
         }
         _ => return Ok(Cancellation::Finished),
     }
@@ -37,6 +38,6 @@ pub(super) async fn forget(change: &mut Change<'_>, owner: &Owner, id: JobId) ->
         return Ok(Removal::Unfinished);
     }
     sqlx::query("DELETE FROM jobs WHERE id = $1").bind(id.to_string()).execute(change.connection()).await?;
-    change.announce(id, false);
+    change.announce(News::of(id));
     Ok(Removal::Forgotten)
 }

@@ -5,18 +5,22 @@ use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
 
 use super::events;
 use crate::budget::Incumbent;
-use crate::jobs::{Job, JobId, JobState, Owner, Page, Timestamp};
+use crate::jobs::{Event, Job, JobId, JobState, Owner, Page, Timestamp};
 
 /// What a job is read from, but its result and its place in the queue.
 const COLUMNS: &str = "jobs.id, jobs.state, jobs.scene_id, jobs.scene_sha256, jobs.created_at, jobs.started_at, \
     jobs.finished_at, jobs.expires_at, jobs.attempts, jobs.cost, jobs.lower_bound, jobs.problem, jobs.version, jobs.events";
-/// The place of one job: everything up to it is counted.
-const PLACE_OF_ONE: &str = "CASE WHEN jobs.state = 'queued' THEN (SELECT COUNT(*) FROM jobs AS other \
-    WHERE other.state = 'queued' AND (other.priority > jobs.priority OR (other.priority = jobs.priority \
-    AND (other.turn < jobs.turn OR (other.turn = jobs.turn AND other.id <= jobs.id))))) END AS queue_position";
 /// The places of all jobs: the whole queue is counted once.
 const PLACES: &str = "LEFT JOIN (SELECT id AS queued_id, ROW_NUMBER() OVER (ORDER BY priority DESC, turn, id) \
     AS queue_position FROM jobs WHERE state = 'queued') AS places ON places.queued_id = jobs.id";
+
+/// The place in the queue of a job with these: those that are claimed before it are counted.
+pub(super) fn place(priority: &str, turn: &str, id: &str) -> String {
+    format!(
+        "(SELECT COUNT(*) + 1 FROM jobs AS other WHERE other.state = 'queued' AND (other.priority > {priority} \
+         OR (other.priority = {priority} AND (other.turn < {turn} OR (other.turn = {turn} AND other.id < {id})))))"
+    )
+}
 
 /// A job by its name, of this owner or of anybody.
 pub(super) async fn find(
@@ -25,7 +29,11 @@ pub(super) async fn find(
     id: JobId,
 ) -> Result<Option<Job>, Error> {
     let owned = if owner.is_some() { " AND owner = $2" } else { "" };
-    let text = format!("SELECT {COLUMNS}, jobs.result, {PLACE_OF_ONE} FROM jobs WHERE id = $1{owned}");
+    let place = place("jobs.priority", "jobs.turn", "jobs.id");
+    let text = format!(
+        "SELECT {COLUMNS}, jobs.result, CASE WHEN jobs.state = 'queued' THEN {place} END AS queue_position \
+         FROM jobs WHERE id = $1{owned}"
+    );
     let mut query = sqlx::query(AssertSqlSafe(text)).bind(id.to_string());
     if let Some(owner) = owner {
         query = query.bind(owner.as_str());
@@ -73,7 +81,6 @@ pub(super) async fn list(connection: &mut AnyConnection, owner: &Owner, page: Pa
 
 fn job(row: &AnyRow) -> Result<Job, Error> {
     let scene_id: Option<Vec<u8>> = row.try_get("scene_id")?;
-    let lines: String = row.try_get("events")?;
     Ok(Job {
         id: id(row)?,
         state: state(row)?,
@@ -89,8 +96,13 @@ fn job(row: &AnyRow) -> Result<Job, Error> {
         result: row.try_get("result")?,
         problem: row.try_get("problem")?,
         version: row.try_get("version")?,
-        events: events::read(&lines).ok_or_else(|| Error::Decode(format!("no events: {lines:?}").into()))?,
+        events: events(row)?,
     })
+}
+
+pub(super) fn events(row: &AnyRow) -> Result<Vec<Event>, Error> {
+    let lines: String = row.try_get("events")?;
+    events::read(&lines).ok_or_else(|| Error::Decode(format!("no events: {lines:?}").into()))
 }
 
 pub(super) fn id(row: &AnyRow) -> Result<JobId, Error> {

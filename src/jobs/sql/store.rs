@@ -6,17 +6,21 @@ use std::time::Instant;
 
 use async_trait::async_trait;
 use sqlx::{AnyPool, Error};
+use tokio::time::error::Elapsed;
 use tokio::time::timeout;
+use tokio_util::task::TaskTracker;
 
+use super::call::{self, Decision};
 use super::change::Change;
 use super::dialect::Dialect;
+use super::file;
 use super::herald::Herald;
 use super::submit::{Submitted, submit};
 use super::{callbacks, owner, row, sweep, worker};
 use crate::budget::Incumbent;
 use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobSettings, NewJob, Owner, Page,
-    Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp,
+    Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
 
 use crate::metrics::{Metrics, StoreOutcome};
@@ -26,6 +30,9 @@ use crate::metrics::{Metrics, StoreOutcome};
 const PATIENCE: Duration = Duration::from_secs(8);
 const LEAST_PATIENCE: Duration = Duration::from_secs(3);
 
+/// How long it may take to end what is being written, and to bring a file in order.
+const CLOSING: Duration = Duration::from_secs(3);
+
 /// Jobs in a database.
 pub(super) struct SqlStore {
     pub(super) dialect: Dialect,
@@ -34,45 +41,79 @@ pub(super) struct SqlStore {
     pub(super) writers: AnyPool,
     /// For what only looks.
     pub(super) readers: AnyPool,
+    /// What is written just now.
+    pub(super) tasks: TaskTracker,
     pub(super) herald: Herald,
     pub(super) metrics: Arc<Metrics>,
 }
 
-/// The store as everybody has it, and the tasks that write for them.
+/// The store as everybody has it, the tasks that write among them.
 pub(super) struct SharedStore(pub(super) Arc<SqlStore>);
 
-/// One write: all that is asked of `$change` happens, or nothing does. It runs in a task of its own, which nobody drops:
-/// a transaction that is given up while it begins would go back to the pool with its connection, still open.
+/// One write: all that is asked of `$change` happens, or nothing does. What `$undo` gets nobody has heard of.
 macro_rules! change {
-    ($store:expr, $operation:literal, |$change:ident| $work:expr) => {{
-        let store = Arc::clone(&$store.0);
+    ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
+        change!($store, $operation, |$change| $work, |_| async {})
+    };
+    ($store:expr, $operation:literal, |$change:ident| $work:expr, $undo:expr) => {{
+        let (store, decision) = (Arc::clone(&$store.0), Decision::default());
+        let own = decision.clone();
         let task = async move {
-            let mut change = Change::begin(&store).await?;
+            let mut change = Change::begin(&store, own).await?;
             let $change = &mut change;
             let answer = $work.await?;
             change.commit().await?;
             Ok(answer)
         };
-        $store.0.ask($operation, async { tokio::spawn(task).await.unwrap_or(Err(Error::WorkerCrashed)) })
+        async move {
+            let store = &$store.0;
+            store.ask($operation, call::answer(&store.tasks, (store.patience(), &decision), task, $undo)).await
+        }
     }};
 }
 
 impl SqlStore {
-    /// Every question passes here, under its name.
-    async fn ask<T>(
+    /// What only looks.
+    async fn look<T>(
         &self,
         operation: &'static str,
         work: impl Future<Output = Result<T, Error>>,
     ) -> Result<T, StoreError> {
+        self.ask(operation, timeout(self.patience(), work)).await
+    }
+
+    /// Every question passes here, under its name.
+    async fn ask<T>(
+        &self,
+        operation: &'static str,
+        work: impl Future<Output = Result<Result<T, Error>, Elapsed>>,
+    ) -> Result<T, StoreError> {
         let asked = Instant::now();
-        let patience = (self.settings.lease / 2).clamp(LEAST_PATIENCE, PATIENCE);
-        let answer = match timeout(patience, work).await {
+        let answer = match work.await {
             Ok(answer) => answer.map_err(|error| StoreError(format!("{operation}: {error}"))),
-            Err(_) => Err(StoreError(format!("{operation}: no answer within {} ms", patience.as_millis()))),
+            Err(_) => Err(StoreError(format!("{operation}: no answer within {} ms", asked.elapsed().as_millis()))),
         };
         let outcome = if answer.is_ok() { StoreOutcome::Done } else { StoreOutcome::Failed };
         self.metrics.store(operation, outcome, asked.elapsed());
         answer
+    }
+
+    /// SQLite empties its log into the file when the last connection is closed, and says nothing if it can't. So it is told
+    /// to before that, when nobody reads or writes any more.
+    async fn close(&self) -> Result<(), Error> {
+        self.tasks.wait().await;
+        self.readers.close().await;
+        // In memory those who read and those who write are the same.
+        let emptied = match self.dialect {
+            Dialect::Sqlite if !self.writers.is_closed() => file::empty_log(&self.writers).await,
+            _ => Ok(()),
+        };
+        self.writers.close().await;
+        emptied
+    }
+
+    fn patience(&self) -> Duration {
+        (self.settings.lease / 2).clamp(LEAST_PATIENCE, PATIENCE)
     }
 }
 
@@ -88,11 +129,11 @@ impl Store for SharedStore {
     }
 
     async fn get(&self, owner: &Owner, id: JobId) -> Result<Option<Job>, StoreError> {
-        self.0.ask("get", async { row::find(&mut *self.0.readers.acquire().await?, Some(owner), id).await }).await
+        self.0.look("get", async { row::find(&mut *self.0.readers.acquire().await?, Some(owner), id).await }).await
     }
 
     async fn list(&self, owner: &Owner, page: Page) -> Result<Vec<Job>, StoreError> {
-        self.0.ask("list", async { row::list(&mut *self.0.readers.acquire().await?, owner, page).await }).await
+        self.0.look("list", async { row::list(&mut *self.0.readers.acquire().await?, owner, page).await }).await
     }
 
     async fn cancel(&self, owner: &Owner, id: JobId, now: Timestamp) -> Result<Cancellation, StoreError> {
@@ -105,12 +146,18 @@ impl Store for SharedStore {
         change!(self, "forget", |change| owner::forget(change, &owner, id)).await
     }
 
-    async fn claim(&self, now: Timestamp) -> Result<Option<Claimed>, StoreError> {
-        change!(self, "claim", |change| worker::claim(change, now)).await
+    async fn claim(&self, clock: &WallClock) -> Result<Option<Claimed>, StoreError> {
+        let (own, store, time) = (clock.clone(), Arc::clone(&self.0), clock.clone());
+        let undo = async move |unheard: Option<Claimed>| {
+            let Some(Claimed { claim, .. }) = unheard else { return };
+            call::insist(store.settings.lease, || worker::give_back(&store, claim, time.now())).await;
+        };
+        change!(self, "claim", |change| worker::claim(change, &own), undo).await
     }
 
-    async fn renew(&self, claim: Claim, now: Timestamp) -> Result<Renewal, StoreError> {
-        change!(self, "renew", |change| worker::renew(change, claim, now)).await
+    async fn renew(&self, claim: Claim, clock: &WallClock) -> Result<Renewal, StoreError> {
+        let clock = clock.clone();
+        change!(self, "renew", |change| worker::renew(change, claim, &clock)).await
     }
 
     async fn note(&self, claim: Claim, incumbent: Incumbent, now: Timestamp) -> Result<bool, StoreError> {
@@ -138,8 +185,13 @@ impl Store for SharedStore {
         }
     }
 
-    async fn take_callback(&self, lease: Duration, now: Timestamp) -> Result<Option<Callback>, StoreError> {
-        change!(self, "take_callback", |change| callbacks::take(change, lease, now)).await
+    async fn take_callback(&self, lease: Duration, clock: &WallClock) -> Result<Option<Callback>, StoreError> {
+        let (own, store, time) = (clock.clone(), Arc::clone(&self.0), clock.clone());
+        let undo = async move |unheard: Option<Callback>| {
+            let Some(Callback { job, attempt, .. }) = unheard else { return };
+            call::insist(lease, || callbacks::give_back(&store, job.id, attempt, time.now())).await;
+        };
+        change!(self, "take_callback", |change| callbacks::take(change, lease, &own), undo).await
     }
 
     async fn settle_callback(&self, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), StoreError> {
@@ -147,11 +199,17 @@ impl Store for SharedStore {
     }
 
     async fn counts(&self) -> Result<Counts, StoreError> {
-        self.0.ask("counts", async { sweep::counts(&mut *self.0.readers.acquire().await?).await }).await
+        self.0.look("counts", async { sweep::counts(&mut *self.0.readers.acquire().await?).await }).await
     }
 
     async fn ping(&self) -> Result<(), StoreError> {
-        self.0.ask("ping", async { sqlx::query("SELECT 1").execute(&self.0.readers).await.map(drop) }).await
+        self.0.look("ping", async { sqlx::query("SELECT 1").execute(&self.0.readers).await.map(drop) }).await
+    }
+
+    async fn close(&self) -> Result<(), StoreError> {
+        self.0.tasks.close();
+        let closed = timeout(CLOSING, self.0.close()).await.unwrap_or(Err(Error::PoolTimedOut));
+        closed.map_err(|error| StoreError(format!("close: {error}")))
     }
 
     fn hints(&self) -> &Hints {

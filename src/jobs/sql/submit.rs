@@ -1,13 +1,15 @@
 //! Accepting jobs: all of one request, or none.
 
+use core::cmp::Reverse;
 use std::collections::HashMap;
 
-use sqlx::{Error, Row};
+use sqlx::{AssertSqlSafe, Error, Row};
 
 use super::change::Change;
 use super::events;
+use super::herald::News;
 use super::row;
-use crate::jobs::{Event, EventKind, Job, JobId, NewJob, Timestamp};
+use crate::jobs::{Event, EventKind, Job, JobId, JobState, NewJob, Timestamp};
 
 /// What became of a request.
 #[derive(Debug)]
@@ -34,18 +36,24 @@ pub(super) async fn submit(change: &mut Change<'_>, jobs: &[NewJob], now: Timest
     if queued.saturating_add(jobs.len()) > change.settings().max_queued {
         return Ok(Submitted::Full);
     }
-    let mut turns = HashMap::new();
-    for job in jobs {
+    let (mut turns, mut queue) = (HashMap::new(), Vec::with_capacity(jobs.len()));
+    for (at, job) in jobs.iter().enumerate() {
         let turn = match turns.get(&(&job.owner, job.priority)) {
             Some(last) => last + 1,
             None => next_turn(change, job).await?,
         };
         turns.insert((&job.owner, job.priority), turn);
-        insert(change, job, turn, now).await?;
-        change.announce(job.id, true);
+        queue.push((at, job, turn));
     }
-    let ids: Vec<JobId> = jobs.iter().map(|job| job.id).collect();
-    Ok(Submitted::Accepted(row::find_all(change.connection(), &ids).await?))
+    // Each is told its place in the queue, which those before it have to be in by then.
+    queue.sort_by_key(|(_, job, turn)| (Reverse(job.priority), *turn, job.id));
+    let mut accepted = Vec::with_capacity(jobs.len());
+    for (at, job, turn) in queue {
+        accepted.push((at, insert(change, job, turn, now).await?));
+        change.announce(News { queued: true, ..News::of(job.id) });
+    }
+    accepted.sort_by_key(|(at, _)| *at);
+    Ok(Submitted::Accepted(accepted.into_iter().map(|(_, job)| job).collect()))
 }
 
 /// What the key says, if it came before.
@@ -77,18 +85,22 @@ async fn next_turn(change: &mut Change<'_>, job: &NewJob) -> Result<i64, Error> 
     Ok(after_own.max(up).unwrap_or(0))
 }
 
-async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp) -> Result<(), Error> {
-    let event = events::line(&Event { kind: EventKind::Queued, at: now, attempts: 0, incumbent: None });
+/// The job as it is accepted.
+async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp) -> Result<Job, Error> {
+    let event = Event { kind: EventKind::Queued, at: now, attempts: 0, incumbent: None, queue_position: None };
+    let expires_at = now.after(change.settings().ttl);
     let (key, position) = match &job.key {
         Some((key, position)) => (Some(key.as_str()), i64::from(*position)),
         None => (None, 0),
     };
-    let query = sqlx::query(
+    let text = format!(
         "INSERT INTO jobs (id, owner, idempotency_key, key_position, request_sha256, state, priority, turn, attempts, \
          fence, cancel_requested, created_at, expires_at, callback_url, callback_attempt, scene_sha256, scene_id, \
-         events, body) VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, 0, 0, 0, $8, $9, $10, 0, $11, $12, $13, $14)",
+         events, body) VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, 0, 0, 0, $8, $9, $10, 0, $11, $12, \
+         $13 || CAST({} AS TEXT) || '\n', $14) RETURNING events",
+        row::place("$6", "$7", "$1"),
     );
-    query
+    let row = sqlx::query(AssertSqlSafe(text))
         .bind(job.id.to_string())
         .bind(job.owner.as_str())
         .bind(key)
@@ -97,13 +109,30 @@ async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp
         .bind(job.priority)
         .bind(turn)
         .bind(now.as_millis())
-        .bind(now.after(change.settings().ttl).as_millis())
+        .bind(expires_at.as_millis())
         .bind(job.callback_url.as_deref().map(str::as_bytes))
         .bind(job.scene_sha256.as_str())
         .bind(job.scene_id.as_deref().map(str::as_bytes))
-        .bind(event)
+        .bind(events::up_to_the_place(&event))
         .bind(job.body.as_slice())
-        .execute(change.connection())
-        .await
-        .map(drop)
+        .fetch_one(change.connection())
+        .await?;
+    let events = row::events(&row)?;
+    Ok(Job {
+        id: job.id,
+        state: JobState::Queued,
+        scene_id: job.scene_id.clone(),
+        scene_sha256: job.scene_sha256.clone(),
+        created_at: now,
+        started_at: None,
+        finished_at: None,
+        expires_at,
+        attempts: 0,
+        queue_position: events.last().and_then(|event| event.queue_position),
+        incumbent: None,
+        result: None,
+        problem: None,
+        version: None,
+        events,
+    })
 }

@@ -3,6 +3,7 @@
 use sqlx::{AnyConnection, AssertSqlSafe, Error};
 
 use super::change::{Change, Ending, STANDING, Standing};
+use super::herald::News;
 use super::row;
 use crate::jobs::{Counts, JobState, MAX_ATTEMPTS, Swept, Timestamp};
 use crate::wire::Problem;
@@ -14,7 +15,9 @@ const BATCH: usize = 200;
 /// One batch, and whether there is more to do. A job that goes back to the queue after its time may expire at once.
 pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Swept, bool), Error> {
     let mut swept = Swept::default();
-    let lost = overdue(change, "state = 'running' AND lease_ends <= $1 ORDER BY lease_ends", now).await?;
+    let mut lost = overdue(change, "state = 'running' AND lease_ends <= $1 ORDER BY lease_ends", now).await?;
+    // Each is told its place in the queue, which those before it have to be back in by then.
+    lost.sort_by_key(Standing::order);
     for job in &lost {
         lose(change, job, &mut swept, now).await?;
     }
@@ -28,7 +31,7 @@ pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Sw
     for job in &old {
         let query = sqlx::query("DELETE FROM jobs WHERE id = $1").bind(job.id.to_string());
         query.execute(change.connection()).await?;
-        change.announce(job.id, false);
+        change.announce(News::of(job.id));
     }
     swept.forgotten = u64::try_from(old.len()).unwrap_or(u64::MAX);
     Ok((swept, [lost, late, old].iter().any(|jobs| jobs.len() == BATCH)))

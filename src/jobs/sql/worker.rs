@@ -2,20 +2,24 @@
 
 use sqlx::{AssertSqlSafe, Error, Row};
 
+use super::call::Decision;
 use super::change::{Change, Ending, STANDING, Standing};
 use super::events;
+use super::herald::News;
 use super::row;
+use super::store::SqlStore;
 use crate::budget::Incumbent;
-use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp};
+use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
 
-pub(super) async fn claim(change: &mut Change<'_>, now: Timestamp) -> Result<Option<Claimed>, Error> {
+/// The lease begins once the job is ours: another's lock may have kept us waiting.
+pub(super) async fn claim(change: &mut Change<'_>, clock: &WallClock) -> Result<Option<Claimed>, Error> {
     let text = format!(
         "{STANDING} WHERE state = 'queued' AND expires_at > $1 ORDER BY priority DESC, turn, id LIMIT 1{}",
         change.dialect().locked_if_free()
     );
-    let query = sqlx::query(AssertSqlSafe(text)).bind(now.as_millis());
+    let query = sqlx::query(AssertSqlSafe(text)).bind(clock.now().as_millis());
     let Some(next) = query.fetch_optional(change.connection()).await? else { return Ok(None) };
-    let job = Standing::read(&next)?;
+    let (job, now) = (Standing::read(&next)?, clock.now());
     let attempt = job.attempts + 1;
     let query = sqlx::query(
         "UPDATE jobs SET state = 'running', attempts = $2, fence = $3, started_at = $4, lease_ends = $5, \
@@ -27,10 +31,10 @@ pub(super) async fn claim(change: &mut Change<'_>, now: Timestamp) -> Result<Opt
         .bind(job.fence + 1)
         .bind(now.as_millis())
         .bind(now.after(change.settings().lease).as_millis())
-        .bind(job.event(EventKind::Running, attempt, now))
+        .bind(job.line(EventKind::Running, attempt, now))
         .fetch_one(change.connection())
         .await?;
-    change.announce(job.id, false);
+    change.announce(News::of(job.id));
     Ok(Some(Claimed {
         claim: Claim { id: job.id, fence: job.fence + 1 },
         owner: job.owner,
@@ -40,17 +44,15 @@ pub(super) async fn claim(change: &mut Change<'_>, now: Timestamp) -> Result<Opt
     }))
 }
 
-pub(super) async fn renew(change: &mut Change<'_>, claim: Claim, now: Timestamp) -> Result<Renewal, Error> {
-    let query = sqlx::query(
-        "UPDATE jobs SET lease_ends = $3 WHERE id = $1 AND fence = $2 AND state = 'running' RETURNING cancel_requested",
-    );
-    let query = query.bind(claim.id.to_string()).bind(claim.fence);
-    let query = query.bind(now.after(change.settings().lease).as_millis());
-    Ok(match query.fetch_optional(change.connection()).await? {
-        Some(row) if row.try_get::<i64, _>("cancel_requested")? != 0 => Renewal::Cancelled,
-        Some(_) => Renewal::Held,
-        None => Renewal::Lost,
-    })
+/// The lease begins once the job is ours, as in [`claim`].
+pub(super) async fn renew(change: &mut Change<'_>, claim: Claim, clock: &WallClock) -> Result<Renewal, Error> {
+    let Some(job) = change.standing(claim.id).await?.filter(|job| job.held_by(claim)) else {
+        return Ok(Renewal::Lost);
+    };
+    let query = sqlx::query("UPDATE jobs SET lease_ends = $2 WHERE id = $1").bind(claim.id.to_string());
+    let query = query.bind(clock.now().after(change.settings().lease).as_millis());
+    query.execute(change.connection()).await?;
+    Ok(if job.cancel_requested { Renewal::Cancelled } else { Renewal::Held })
 }
 
 /// A second attempt begins its search anew, so what it says may be behind what is known.
@@ -74,12 +76,12 @@ pub(super) async fn note(
     let told = events::read(&lines).unwrap_or_default();
     let room = told.iter().filter(|event| event.kind == EventKind::Incumbent).count() < MAX_INCUMBENT_EVENTS;
     let job = Standing { incumbent: Some(best), ..job };
-    let line = if room { job.event(EventKind::Incumbent, job.attempts, now) } else { String::new() };
+    let line = if room { job.line(EventKind::Incumbent, job.attempts, now) } else { String::new() };
     let query = sqlx::query("UPDATE jobs SET cost = $2, lower_bound = $3, events = events || $4 WHERE id = $1");
     let number = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
     let query = query.bind(id).bind(number(best.cost)).bind(number(best.lower_bound)).bind(line);
     query.execute(change.connection()).await?;
-    change.announce(job.id, false);
+    change.announce(News::of(job.id));
     Ok(true)
 }
 
@@ -110,4 +112,11 @@ pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timest
         change.requeue(&job, job.attempts.saturating_sub(1), now).await?;
     }
     Ok(true)
+}
+
+/// A claim that nobody has heard of is handed back.
+pub(super) async fn give_back(store: &SqlStore, claim: Claim, now: Timestamp) -> Result<(), Error> {
+    let mut change = Change::begin(store, Decision::default()).await?;
+    hand_back(&mut change, claim, now).await?;
+    change.commit().await
 }

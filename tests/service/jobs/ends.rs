@@ -62,7 +62,7 @@ async fn a_panic_is_one_failed_job_and_its_worker_lives_on() {
     }
     let host = one_worker(Engine { plan, ..Engine::default() }).await;
     for _ in 0..3 {
-        let job = submit(&host, &scene(1000)).await;
+        let job = submit(&host, &scene(60_000)).await;
         let job = ended(&host, &job).await;
         assert_eq!((&job["state"], &job["result"]), (&json!("failed"), &Value::Null));
         assert_eq!(job["problem"]["type"], "urn:singulate:problem:internal");

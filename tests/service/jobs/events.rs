@@ -39,6 +39,7 @@ async fn a_stream_tells_all_that_happens_to_a_job() {
         };
         assert_eq!((&data["id"], &data["state"]), (&job["id"], &json!(state)));
         assert_eq!(data["result"].is_null(), name != "finished");
+        assert_eq!(data["queue_position"], if name == "queued" { json!(1) } else { Value::Null });
         assert_eq!(data["incumbent"].is_null(), ["queued", "running"].contains(&name.as_str()), "{data}");
     }
     assert_eq!(told[told.len() - 1].2, host.get(&path(&job)).await.json());

@@ -57,12 +57,15 @@ async fn a_job_that_is_not_there_is_a_404_whatever_is_asked_of_it() {
     let host = Host::start().await;
     for id in ["019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "5", "%00", "..%2f..%2fetc"] {
         let path = format!("/v1/jobs/{id}");
-        host.get(&path).await.is_problem(404, "not_found");
+        let reply = host.get(&path).await;
+        reply.is_problem(404, "not_found");
+        assert_eq!(reply.json()["title"], "There is no such job");
         host.get(&format!("{path}?wait_ms=50")).await.is_problem(404, "not_found");
         host.get(&format!("{path}/events")).await.is_problem(404, "not_found");
         host.post(&format!("{path}/cancel"), &Value::Null).await.is_problem(404, "not_found");
         assert_eq!(host.client.delete(host.url(&path)).send().await.unwrap().status(), 404);
     }
+    assert_eq!(host.get("/v1/job").await.json()["title"], "Nothing lives at this path");
     let reply = host.client.put(host.url("/v1/jobs")).body("{}").send();
     assert_eq!(reply.await.unwrap().status(), 405);
 }

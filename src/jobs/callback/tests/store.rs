@@ -8,7 +8,7 @@ use async_trait::async_trait;
 use crate::budget::Incumbent;
 use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobState, NewJob, Owner, Page,
-    Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp,
+    Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
 
 #[derive(Default)]
@@ -68,7 +68,8 @@ fn not_here<T>() -> Result<T, StoreError> {
 
 #[async_trait]
 impl Store for Callbacks {
-    async fn take_callback(&self, lease: Duration, now: Timestamp) -> Result<Option<Callback>, StoreError> {
+    async fn take_callback(&self, lease: Duration, clock: &WallClock) -> Result<Option<Callback>, StoreError> {
+        let now = clock.now();
         let mut due = self.due.lock().unwrap();
         Ok(due.iter_mut().find(|(_, at)| *at <= now).map(|(callback, at)| {
             callback.attempt += 1;
@@ -108,10 +109,10 @@ impl Store for Callbacks {
     async fn forget(&self, _: &Owner, _: JobId) -> Result<Removal, StoreError> {
         not_here()
     }
-    async fn claim(&self, _: Timestamp) -> Result<Option<Claimed>, StoreError> {
+    async fn claim(&self, _: &WallClock) -> Result<Option<Claimed>, StoreError> {
         not_here()
     }
-    async fn renew(&self, _: Claim, _: Timestamp) -> Result<Renewal, StoreError> {
+    async fn renew(&self, _: Claim, _: &WallClock) -> Result<Renewal, StoreError> {
         not_here()
     }
     async fn note(&self, _: Claim, _: Incumbent, _: Timestamp) -> Result<bool, StoreError> {
@@ -127,6 +128,9 @@ impl Store for Callbacks {
         not_here()
     }
     async fn counts(&self) -> Result<Counts, StoreError> {
+        not_here()
+    }
+    async fn close(&self) -> Result<(), StoreError> {
         not_here()
     }
     async fn ping(&self) -> Result<(), StoreError> {

@@ -1,0 +1,101 @@
+//! One call that writes: how long its caller waits, and what becomes of the transaction once nobody does.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::io::ErrorKind;
+use std::sync::Arc;
+
+use sqlx::Error;
+use tokio::sync::oneshot::channel;
+use tokio::time::error::Elapsed;
+use tokio::time::{Instant, timeout};
+use tokio_util::task::TaskTracker;
+
+use crate::jobs::pause::Pause;
+
+/// How long a caller waits besides for a commit that has begun, which can't be taken back.
+const COMMIT_PATIENCE: Duration = Duration::from_secs(2);
+
+/// Whether a transaction is committed. Its task and its caller decide it together: the first one does.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Decision(Arc<AtomicBool>);
+
+impl Decision {
+    /// The task may commit.
+    ///
+    /// # Errors
+    /// The caller has given up.
+    pub(super) fn commit(&self) -> Result<(), Error> {
+        if self.decide() { Ok(()) } else { Err(given_up()) }
+    }
+
+    /// Nothing is decided yet.
+    ///
+    /// # Errors
+    /// The caller has given up.
+    pub(super) fn open(&self) -> Result<(), Error> {
+        if self.0.load(Ordering::Acquire) { Err(given_up()) } else { Ok(()) }
+    }
+
+    /// True if nothing will be committed.
+    fn give_up(&self) -> bool {
+        self.decide()
+    }
+
+    /// True for whoever decides.
+    fn decide(&self) -> bool {
+        !self.0.swap(true, Ordering::AcqRel)
+    }
+}
+
+/// Nobody hears of it.
+fn given_up() -> Error {
+    Error::Io(ErrorKind::TimedOut.into())
+}
+
+/// What `task` answers, which makes one transaction and commits it if `decision` allows. A task of its own does it, which
+/// nobody drops: a transaction that is dropped while it begins would go back to the pool with its connection, still open.
+///
+/// A caller who has waited for `patience` gives up, and the transaction is rolled back. If it is just being committed, he
+/// waits a little longer. What was committed and nobody has heard of, because he went all the same, `undo` takes back.
+/// Once `tasks` is closed, nothing new begins.
+pub(super) async fn answer<T: Send + 'static, U: Future<Output = ()> + Send>(
+    tasks: &TaskTracker,
+    (patience, decision): (Duration, &Decision),
+    task: impl Future<Output = Result<T, Error>> + Send + 'static,
+    undo: impl FnOnce(T) -> U + Send + 'static,
+) -> Result<Result<T, Error>, Elapsed> {
+    if tasks.is_closed() {
+        return Ok(Err(Error::PoolClosed));
+    }
+    let (sender, mut receiver) = channel();
+    tasks.spawn(async move {
+        if let Err(Ok(unheard)) = sender.send(task.await) {
+            undo(unheard).await;
+        }
+    });
+    let mut answer = timeout(patience, &mut receiver).await;
+    if answer.is_err() && !decision.give_up() {
+        answer = timeout(COMMIT_PATIENCE, &mut receiver).await;
+    }
+    match answer {
+        Ok(answer) => Ok(answer.unwrap_or(Err(Error::WorkerCrashed))),
+        Err(late) => {
+            // From here on it counts as unheard; until now it may have come.
+            receiver.close();
+            receiver.try_recv().map_err(|_| late)
+        }
+    }
+}
+
+/// Tries this until it succeeds or the time is over.
+pub(super) async fn insist<F: Future<Output = Result<(), Error>>>(time: Duration, work: impl Fn() -> F) {
+    let (begin, mut pause) = (Instant::now(), Pause::default());
+    while let Err(error) = work().await {
+        tracing::debug!(%error, "what nobody has heard of could not be taken back yet");
+        if begin.elapsed() >= time {
+            return;
+        }
+        pause.pass().await;
+    }
+}
