@@ -19,3 +19,4 @@ mod metrics;
 mod negotiation;
 mod planning;
 mod tls;
+mod unread;
