@@ -14,8 +14,8 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::app::App;
+use super::edge;
 use super::problem::{CHALLENGE, internal};
-use super::{body, edge};
 use crate::jobs::Owner;
 use crate::keys::{Found, Keys, Scope};
 use crate::metrics::Refusal;
@@ -76,7 +76,6 @@ pub(super) async fn guard(
         }
         Err(refused) => {
             app.metrics.refused(refused.refusal());
-            body::discard(request, app.settings.body_timeout);
             refused.into_response()
         }
     }

@@ -3,7 +3,6 @@
 use core::future::poll_fn;
 use core::ops::Deref;
 use core::pin::Pin;
-use core::time::Duration;
 use std::sync::Arc;
 
 use axum::body::{Body, Bytes};
@@ -13,7 +12,6 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::timeout;
 
 use super::app::App;
-use super::patience::Busy;
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
@@ -51,73 +49,57 @@ pub(super) async fn receive(request: Request<Body>, app: &App) -> Result<Receive
     check_type(request.headers())?;
     let settings = &app.settings;
     let max = settings.max_body_bytes;
-    // Who asks before sending is told at once: the system's 100 goes out only when the body is waited for.
-    if request.headers().contains_key(header::EXPECT) && request.body().size_hint().lower() > max as u64 {
+    // A length that is too large is refused at once. A client that asks before it sends is never told to send.
+    if request.body().size_hint().lower() > max as u64 {
         return Err(too_large(max));
     }
-    let mut intake =
-        Intake { received: Vec::new(), max, too_large: false, bodies: &app.bodies, room: None, full: false };
-    match timeout(settings.body_timeout, intake.take(request.into_body())).await {
-        Ok(taken) => taken?,
-        Err(_) if intake.too_large || intake.full => {}
+    let mut intake = Intake { received: Vec::new(), bodies: &app.bodies, room: None };
+    match timeout(settings.body_timeout, intake.take(request.into_body(), max)).await {
+        Ok(Ok(())) => Ok(Received { bytes: intake.received, _room: intake.room }),
+        Ok(Err(NotTaken::Broken(problem))) => Err(problem),
+        Ok(Err(NotTaken::TooLarge)) => Err(too_large(max)),
+        Ok(Err(NotTaken::NoRoom)) => {
+            app.metrics.refused(Refusal::Limit);
+            Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"))
+        }
         Err(_) => {
             let seconds = settings.body_timeout.as_secs_f64();
             let detail = format!("the body was not complete after {seconds} s");
-            return Err(Problem::new(ProblemKind::BodyTimeout, detail));
+            Err(Problem::new(ProblemKind::BodyTimeout, detail))
         }
     }
-    if intake.too_large {
-        return Err(too_large(max));
-    }
-    if intake.full {
-        app.metrics.refused(Refusal::Limit);
-        return Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"));
-    }
-    Ok(Received { bytes: intake.received, _room: intake.room })
-}
-
-/// Let the body of a request that is refused unread come to its end, unless that takes too long: a client that still
-/// sends when its connection closes may never see why. None of it is kept.
-pub(super) fn discard(mut request: Request<Body>, patience: Duration) {
-    // Who asks before sending has sent nothing, and would be told to.
-    if request.headers().contains_key(header::EXPECT) || request.body().is_end_stream() {
-        return;
-    }
-    let busy = request.extensions_mut().remove::<Arc<Busy>>();
-    let mut body = request.into_body();
-    tokio::spawn(timeout(patience, async move {
-        while let Ok(Some(_)) = next(&mut body).await {}
-        drop(busy);
-    }));
 }
 
 fn too_large(max: usize) -> Problem {
     Problem::new(ProblemKind::BodyTooLarge, format!("a body has at most {max} bytes"))
 }
 
+/// Why a body is not taken to its end.
+enum NotTaken {
+    TooLarge,
+    NoRoom,
+    Broken(Problem),
+}
+
 /// What has been received so far.
 struct Intake<'a> {
     received: Vec<u8>,
-    max: usize,
-    too_large: bool,
     bodies: &'a Arc<Semaphore>,
     room: Option<OwnedSemaphorePermit>,
-    full: bool,
 }
 
 impl Intake<'_> {
-    /// Take in all of the body. What is too large is not kept, but taken to its end all the same: many clients read the
-    /// answer only once they have sent everything.
-    async fn take(&mut self, mut body: Body) -> Result<(), Problem> {
-        while let Some(piece) = next(&mut body).await? {
+    /// Take in all of the body, at most so many bytes.
+    async fn take(&mut self, mut body: Body, max: usize) -> Result<(), NotTaken> {
+        while let Some(piece) = next(&mut body).await.map_err(NotTaken::Broken)? {
             let length = self.received.len() + piece.len();
-            self.too_large |= length > self.max;
-            self.full |= !self.too_large && !self.make_room(length);
-            if self.too_large || self.full {
-                (self.received, self.room) = (Vec::new(), None);
-            } else {
-                self.received.extend_from_slice(&piece);
+            if length > max {
+                return Err(NotTaken::TooLarge);
             }
+            if !self.make_room(length) {
+                return Err(NotTaken::NoRoom);
+            }
+            self.received.extend_from_slice(&piece);
         }
         Ok(())
     }

@@ -8,7 +8,6 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::app::App;
-use super::body;
 use super::transport::OverTls;
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
@@ -21,7 +20,6 @@ pub(super) async fn over_tls(State(app): State<Arc<App>>, request: Request, next
     if app.settings.tls.cert.is_none() || request.extensions().get::<OverTls>().is_some() {
         return next.run(request).await;
     }
-    body::discard(request, app.settings.body_timeout);
     last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https"))
 }
 
@@ -35,7 +33,6 @@ pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request, 
         return next.run(request).await;
     }
     app.metrics.refused(Refusal::Unauthorized);
-    body::discard(request, app.settings.body_timeout);
     let refused = |detail| Problem::new(ProblemKind::Unauthorized, detail);
     match shown {
         None => refused("no client certificate came").into_response(),

@@ -1,16 +1,17 @@
 //! Accepts connections and serves them.
 
-use core::pin::pin;
+use core::pin::{Pin, pin};
 use core::time::Duration;
 use std::sync::{Arc, OnceLock};
 
 use axum::Router;
 use hyper::Request;
 use hyper::body::Incoming;
-use hyper::server::conn::http1;
+use hyper::server::conn::http1::{self, Parts};
 use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use tokio::io::AsyncWriteExt;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 use tokio::task::JoinSet;
@@ -18,9 +19,11 @@ use tokio::time::{Instant, sleep, timeout_at};
 
 use super::app::App;
 use super::patience::PatientStream;
+use super::refusal;
 use super::router::router;
 use super::socket::Socket;
 use super::transport::{self, OverTls, Transport};
+use super::unread::{self, Unread};
 use crate::tls::Acceptor;
 
 /// How long to wait after the system refused a connection, mostly for want of file descriptors.
@@ -117,18 +120,23 @@ async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, O
 /// Answer what is asked over `stream`; each request gets the mark.
 async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &App, asking: watch::Sender<usize>) {
     let (stream, quiet) = PatientStream::new(stream, app.settings.header_timeout);
+    let (unread, max_body_bytes) = (Unread::default(), app.settings.max_body_bytes);
     let service = TowerToHyperService::new(service);
-    let asked = OnceLock::new();
+    let (asked, own) = (OnceLock::new(), unread.clone());
     let service = service_fn(move |mut request: Request<Incoming>| {
         if let Some(mark) = mark.clone() {
             request.extensions_mut().insert(mark);
         }
         asked.get_or_init(|| Asking::new(asking.clone()));
-        let busy = Arc::new(quiet.busy());
-        request.extensions_mut().insert(Arc::clone(&busy));
+        let (busy, unread) = (quiet.busy(), own.clone());
+        let (request, loan) = unread::lend(request, max_body_bytes);
         let answer = service.call(request);
         async move {
-            let answer = answer.await;
+            let answer = match loan {
+                // Boxed: else every connection would keep the room for a body that few of its requests have.
+                Some(loan) => Box::pin(loan.settle(answer, &unread)).await,
+                None => answer.await,
+            };
             drop(busy);
             answer
         }
@@ -137,21 +145,36 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
     let lasting = !app.draining.begun();
     let mut builder = http1::Builder::new();
     builder.timer(TokioTimer::new()).header_read_timeout(IDLE_TIMEOUT).keep_alive(lasting);
-    let mut connection = pin!(builder.serve_connection(TokioIo::new(stream), service));
+    let mut connection = builder.serve_connection(TokioIo::new(stream), service);
+    let mut serving = Pin::new(&mut connection);
     let ended = tokio::select! {
-        ended = connection.as_mut() => ended,
+        ended = serving.as_mut() => ended,
         () = app.draining.wait(), if lasting => {
-            connection.as_mut().graceful_shutdown();
-            connection.await
+            serving.as_mut().graceful_shutdown();
+            serving.await
         }
     };
-    note(ended);
+    // The service goes last: until the client has read its last answer the connection counts.
+    let Parts { io, service: _counted, .. } = connection.into_parts();
+    end(io.into_inner().into_transport(), ended, unread.get(), app.settings.body_timeout).await;
 }
 
-fn note(ended: hyper::Result<()>) {
+/// End a connection so that its last answer can be read.
+async fn end(mut stream: Transport, ended: hyper::Result<()>, unread: bool, patience: Duration) {
     if let Err(error) = ended {
         tracing::debug!(%error, "a connection ended early");
+        // Hyper refuses a head that is no HTTP/1.1 itself, but leaves HTTP/2 without a word. After any other error nobody
+        // takes an answer.
+        let told =
+            error.is_parse() && (!error.is_parse_version_h2() || stream.write_all(&refusal::of_http_2()).await.is_ok());
+        if !told {
+            return;
+        }
+    } else if !unread {
+        return;
     }
+    // Boxed likewise.
+    Box::pin(unread::close(stream, patience)).await;
 }
 
 /// Counts a connection from its first request to its end.

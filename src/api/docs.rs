@@ -15,6 +15,11 @@ use crate::wire::Problem;
 static CONFIG: LazyLock<Arc<Config<'static>>> =
     LazyLock::new(|| Arc::new(Config::from("../openapi.json").validator_url("none").use_base_layout()));
 
+/// Until `/` has a page of its own.
+pub(super) async fn from_root() -> Redirect {
+    Redirect::temporary("/docs/")
+}
+
 /// The page's files are named relative to the folder.
 pub(super) async fn to_folder() -> Redirect {
     Redirect::permanent("/docs/")

@@ -27,6 +27,7 @@ mod settings;
 mod socket;
 mod survey;
 mod transport;
+mod unread;
 mod verification;
 
 pub use app::App;

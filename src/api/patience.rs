@@ -9,7 +9,7 @@ use core::task::{Context, Poll, ready};
 use core::time::Duration;
 use std::io::{self, ErrorKind, IoSlice};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::{Sleep, sleep};
@@ -17,30 +17,28 @@ use tokio::time::{Sleep, sleep};
 use super::refusal;
 use super::transport::Transport;
 
-/// Counts the requests in hand: a connection is quiet while there are none. Shared by the stream and the service on top of
-/// it.
-#[derive(Clone, Default)]
-pub(super) struct Quiet(Arc<AtomicUsize>);
+/// Whether no request is in hand. Shared by the stream and the service on top of it.
+#[derive(Clone)]
+pub(super) struct Quiet(Arc<AtomicBool>);
 
 impl Quiet {
     /// A head is complete.
     pub(super) fn busy(&self) -> Busy {
-        self.0.fetch_add(1, Ordering::Relaxed);
+        self.0.store(false, Ordering::Relaxed);
         Busy(self.clone())
     }
 
     fn get(&self) -> bool {
-        self.0.load(Ordering::Relaxed) == 0
+        self.0.load(Ordering::Relaxed)
     }
 }
 
-/// A request in hand, until it is answered. Requests carry it, for whoever takes the rest of a body after the answer: those
-/// bytes are no new head. The last piece of a body may be seen later than the head behind it, hence the count.
+/// A request in hand, until its body has come and it is answered.
 pub(super) struct Busy(Quiet);
 
 impl Drop for Busy {
     fn drop(&mut self) {
-        self.0.0.fetch_sub(1, Ordering::Relaxed);
+        self.0.0.store(true, Ordering::Relaxed);
     }
 }
 
@@ -58,9 +56,14 @@ pub(super) struct PatientStream {
 impl PatientStream {
     /// The first head is due within this time from now, each later one from its first byte.
     pub(super) fn new(stream: Transport, head_patience: Duration) -> (Self, Quiet) {
-        let quiet = Quiet::default();
+        let quiet = Quiet(Arc::new(AtomicBool::new(true)));
         let head = Some(Box::pin(sleep(head_patience)));
         (Self { stream, quiet: quiet.clone(), head_patience, head, owed: Vec::new() }, quiet)
+    }
+
+    /// The stream below, for which no time is kept.
+    pub(super) fn into_transport(self) -> Transport {
+        self.stream
     }
 
     /// An error once the head that has begun is overdue.

@@ -21,13 +21,22 @@ pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
     if kept.len() == fields.split("\r\n").count() {
         return None;
     }
-    let body = serde_json::to_string(&Problem::new(kind, detail)).ok()?;
-    let kept = kept.join("\r\n");
+    Some(response(status_line, &kept.join("\r\n"), &Problem::new(kind, detail)))
+}
+
+/// The answer to a client that begins with HTTP/2. Such clients recognise HTTP/1.1 and name it in their error.
+pub(super) fn of_http_2() -> Vec<u8> {
+    let detail = "this service speaks HTTP/1.1 and no HTTP/2";
+    response("HTTP/1.1 400 Bad Request", "connection: close", &Problem::new(ProblemKind::MalformedHttp, detail))
+}
+
+fn response(status_line: &str, fields: &str, problem: &Problem) -> Vec<u8> {
+    // Words and a number: they can be written.
+    let body = serde_json::to_string(problem).unwrap_or_default();
     let length = body.len();
     let policy: String = OF_DATA.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();
     let own = format!("content-type: {PROBLEM_JSON}\r\ncontent-length: {length}\r\n{policy}");
-    let response = format!("{status_line}\r\n{own}{kept}\r\n\r\n{body}");
-    Some(response.into_bytes())
+    format!("{status_line}\r\n{own}{fields}\r\n\r\n{body}").into_bytes()
 }
 
 #[cfg(test)]

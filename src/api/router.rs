@@ -54,6 +54,7 @@ pub fn router(app: Arc<App>) -> Router {
     });
     let (router, _) = guarded.split_for_parts();
     let router = router
+        .route("/", get(docs::from_root))
         .route("/docs", get(docs::to_folder))
         .route("/docs/", get(docs::page))
         .route("/docs/{*file}", get(docs::file))

@@ -61,8 +61,7 @@ const VERDICTS: [(&str, VerdictName); 5] = [
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
-    let value = parse(body)?;
-    let mut faults = Faults::default();
+    let (value, mut faults) = parse(body)?;
     let request = verify(Node::root(&value), limits, &mut faults);
     faults.judge(request)
 }
@@ -72,8 +71,7 @@ pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest,
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Claim, Problem> {
-    let value = parse(body)?;
-    let mut faults = Faults::default();
+    let (value, mut faults) = parse(body)?;
     let target = scene.object(scene.target()).id();
     let claim = plan(Node::root(&value), Some(target), &mut faults);
     faults.judge(claim)

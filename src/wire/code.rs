@@ -17,6 +17,8 @@ pub enum ErrorCode {
     Missing,
     /// A field that is not known here.
     UnknownField,
+    /// A field that is there twice.
+    RepeatedField,
     /// Another type of value was expected.
     WrongType,
     /// None of the words that may stand here.

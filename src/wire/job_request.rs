@@ -37,8 +37,7 @@ const BATCH: Names = Names::of(&["scenes"]);
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_job(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
-    let value = parse(body)?;
-    let mut faults = Faults::default();
+    let (value, mut faults) = parse(body)?;
     let read = job(Node::root(&value), limits, &mut faults);
     faults.judge(read.map(|job| JobRequest { body: body.to_owned(), ..job }))
 }
@@ -48,8 +47,7 @@ pub fn read_job(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Probl
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_batch(body: &[u8], limits: &RequestLimits) -> Result<Vec<JobRequest>, Problem> {
-    let value = parse(body)?;
-    let mut faults = Faults::default();
+    let (value, mut faults) = parse(body)?;
     let read = batch(Node::root(&value), limits, &mut faults);
     let jobs = faults.judge(read)?;
     let scenes = value.get("scenes").and_then(Value::as_array).into_iter().flatten();

@@ -11,6 +11,7 @@ mod glance;
 mod job;
 mod job_request;
 mod knowledge;
+mod malformed;
 mod problem;
 mod reader;
 mod request;
@@ -21,6 +22,7 @@ mod survey;
 mod table1;
 mod table2;
 mod verification;
+mod walk;
 
 pub use answer::{
     ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord, warnings,

@@ -5,7 +5,9 @@ use core::fmt;
 use serde_json::{Map, Value};
 
 use super::code::ErrorCode;
-use super::problem::{ErrorItem, Problem, ProblemKind};
+use super::malformed::{Places, malformed};
+use super::problem::{ErrorItem, Problem};
+use super::walk::{Repeated, repeats, walk};
 
 /// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
 #[derive(Clone, Copy)]
@@ -60,23 +62,22 @@ impl Faults {
     }
 }
 
-/// What some editors put before a text in UTF-8; no part of JSON.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
-/// The body as JSON.
-pub(super) fn parse(body: &[u8]) -> Result<Value, Problem> {
-    serde_json::from_slice(body).map_err(|error| {
-        let detail = if body.trim_ascii().is_empty() {
-            "the body is empty".to_owned()
-        } else if body.starts_with(BYTE_ORDER_MARK) {
-            "the body is not JSON: it begins with a byte order mark; send UTF-8 without".to_owned()
-        } else {
-            // The reader's message ends with the line and the column.
-            format!("the body is not JSON: {error}")
-        };
-        let item = ErrorItem { code: ErrorCode::MalformedJson, pointer: String::new(), detail: detail.clone() };
-        Problem::new(ProblemKind::MalformedJson, detail).with_errors(vec![item])
-    })
+/// The body as JSON, and the faults that show before it is walked: fields that are there twice.
+///
+/// # Errors
+/// A problem that names what is no JSON.
+pub(super) fn parse(body: &[u8]) -> Result<(Value, Faults), Problem> {
+    let value = serde_json::from_slice(body).map_err(|error| malformed(body, &error))?;
+    let mut faults = Faults::default();
+    if repeats(body, &value) {
+        let mut places = Places::of(body);
+        faults.items.extend(walk(body).repeated.into_iter().map(|Repeated { name, at, pointer }| ErrorItem {
+            code: ErrorCode::RepeatedField,
+            pointer,
+            detail: format!("'{name}' is there a second time, at {}", places.at(at)),
+        }));
+    }
+    Ok((value, faults))
 }
 
 /// A value and its place.

@@ -66,8 +66,7 @@ impl AsRef<PlanRequest> for PlanRequest {
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_scene(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
-    let value = parse(body)?;
-    let mut faults = Faults::default();
+    let (value, mut faults) = parse(body)?;
     let request = request(Node::root(&value), &REQUEST, limits, &mut faults);
     faults.judge(request)
 }

@@ -1,6 +1,7 @@
 //! Each bad input with its pointer, and each answer with its fields.
 
 mod answers;
+mod malformed;
 mod requests;
 
 use serde_json::{Value, json};

@@ -108,3 +108,16 @@ fn the_problem_that_is_shown_is_what_is_said() {
     }
     assert_eq!(told.lines().count(), shown["errors"].as_array().unwrap().len() + 1, "{told}");
 }
+
+#[test]
+fn a_file_that_is_no_json_is_told_what_stands_in_it() {
+    let told = |name: &str, text: &str| failed(&run(&["plan", file(name, text).to_str().unwrap()]), 2);
+    let broken = crate::scenes::ALONE.replace("\"x\": 0.5", "\"x\": NaN");
+    let said = told("nan.json", &broken);
+    assert!(said.contains("NaN stands at line 3 column 36, in /objects/0/x of object 'cup'"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    let said = told("nans.json", &broken.replace("\"y\": 0.5", "\"y\": -Infinity"));
+    assert!(said.contains("-Infinity stands at line 3 column 46, in /objects/0/y of object 'cup'"), "{said}");
+    assert_eq!(said.lines().count(), 2, "{said}");
+    assert!(told("comment.json", "{} # done").contains("a comment stands at line 1 column 4"));
+}

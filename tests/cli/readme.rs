@@ -116,6 +116,22 @@ fn pages() -> Vec<PathBuf> {
     paths.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect()
 }
 
+#[test]
+fn a_file_that_curl_sends_keeps_its_lines() {
+    let lines = pages().into_iter().flat_map(|page| {
+        let text = std::fs::read_to_string(page).unwrap();
+        text.lines()
+            .filter(|line| line.contains(" @") && line.contains("application/json"))
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    });
+    let lines: Vec<String> = lines.collect();
+    assert!(lines.len() >= 4, "{lines:?}");
+    for line in lines {
+        assert!(line.contains(" --data-binary @") && !line.contains(" -d @"), "the lines of the file are lost: {line}");
+    }
+}
+
 /// The anchors of a page's headings, as a forge makes them.
 fn anchors(page: &str) -> Vec<String> {
     let headings = page

@@ -176,6 +176,7 @@ async fn the_page_needs_no_internet() {
     let page = host.get("/docs").await;
     assert_eq!((page.status, page.header("content-type")), (200, "text/html"));
     assert_eq!(host.get("/docs/").await.text, page.text);
+    assert_eq!(host.get("/").await.text, page.text);
     let pieces = page.text.split('"').filter(|piece| [".js", ".css", ".png"].iter().any(|end| piece.ends_with(end)));
     let files: Vec<&str> = pieces.map(|piece| piece.trim_start_matches("./")).collect();
     assert!(files.contains(&"swagger-initializer.js"), "{files:?}");

@@ -22,3 +22,4 @@ mod negotiation;
 mod planning;
 mod schema;
 mod tls;
+mod unread;

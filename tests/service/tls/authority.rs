@@ -11,14 +11,14 @@ use rustls::{ClientConfig, RootCertStore, SupportedProtocolVersion, version};
 use singulate::tls::TlsSettings;
 
 /// Signs certificates, and keeps those of a service in a folder of the test's own.
-pub(super) struct Authority {
+pub(crate) struct Authority {
     issuer: CertifiedIssuer<'static, KeyPair>,
-    pub(super) folder: PathBuf,
+    pub(crate) folder: PathBuf,
 }
 
 /// A certificate and its key.
-pub(super) struct Pair {
-    pub(super) certificate: CertificateDer<'static>,
+pub(crate) struct Pair {
+    pub(crate) certificate: CertificateDer<'static>,
     certificate_pem: String,
     key: KeyPair,
 }
@@ -32,7 +32,7 @@ fn named(common_name: &str, names: &[&str]) -> CertificateParams {
 
 impl Authority {
     /// No two tests may say the same name.
-    pub(super) fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("tls-{name}"));
         fs::create_dir_all(&folder).unwrap();
         let mut params = named(&format!("authority {name}"), &[]);
@@ -43,50 +43,50 @@ impl Authority {
     }
 
     /// A new certificate for a service, or for a client.
-    pub(super) fn pair(&self) -> Pair {
+    pub(crate) fn pair(&self) -> Pair {
         let key = KeyPair::generate().unwrap();
         let signed = named("singulate", &["localhost", "127.0.0.1"]).signed_by(&key, &self.issuer).unwrap();
         Pair { certificate: signed.der().clone(), certificate_pem: signed.pem(), key }
     }
 
-    pub(super) fn write_certificate(&self, pair: &Pair) {
+    pub(crate) fn write_certificate(&self, pair: &Pair) {
         fs::write(self.folder.join("cert.pem"), &pair.certificate_pem).unwrap();
     }
 
-    pub(super) fn write_key(&self, pair: &Pair) {
+    pub(crate) fn write_key(&self, pair: &Pair) {
         fs::write(self.folder.join("key.pem"), pair.key.serialize_pem()).unwrap();
     }
 
     /// From now on a service that watches the folder has this certificate.
-    pub(super) fn replace(&self, pair: &Pair) {
+    pub(crate) fn replace(&self, pair: &Pair) {
         self.write_certificate(pair);
         self.write_key(pair);
     }
 
     /// The clients of these authorities are let in.
-    pub(super) fn write_client_ca(&self, authorities: &[&Self]) {
+    pub(crate) fn write_client_ca(&self, authorities: &[&Self]) {
         let all: String = authorities.iter().map(|authority| authority.issuer.pem()).collect();
         fs::write(self.folder.join("clients.pem"), all).unwrap();
     }
 
     /// A service with a certificate of this authority.
-    pub(super) fn service(&self) -> TlsSettings {
+    pub(crate) fn service(&self) -> TlsSettings {
         let file = |name| Some(self.folder.join(name));
         TlsSettings { cert: file("cert.pem"), key: file("key.pem"), client_ca: None }
     }
 
     /// The same, for clients with certificates.
-    pub(super) fn service_with_client_ca(&self) -> TlsSettings {
+    pub(crate) fn service_with_client_ca(&self) -> TlsSettings {
         TlsSettings { client_ca: Some(self.folder.join("clients.pem")), ..self.service() }
     }
 
     /// A client that trusts services of this authority and shows `own`.
-    pub(super) fn client(&self, own: Option<&Pair>) -> Arc<ClientConfig> {
+    pub(crate) fn client(&self, own: Option<&Pair>) -> Arc<ClientConfig> {
         self.client_of(&version::TLS13, own)
     }
 
     /// The same of another version.
-    pub(super) fn client_of(
+    pub(crate) fn client_of(
         &self,
         version: &'static SupportedProtocolVersion,
         own: Option<&Pair>,

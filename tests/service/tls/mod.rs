@@ -1,6 +1,6 @@
 //! The service over TLS.
 
-mod authority;
+pub(crate) mod authority;
 mod clients;
 mod hostile;
 mod replacing;
@@ -26,7 +26,7 @@ const LIVEZ: &str = "GET /livez HTTP/1.1\r\nhost: x\r\n\r\n";
 const LAST_LIVEZ: &str = "GET /livez HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n";
 
 /// A service with a certificate of the authority, whose own client trusts it.
-async fn secure_host(authority: &Authority, settings: ServerSettings, engine: Engine) -> Host {
+pub(crate) async fn secure_host(authority: &Authority, settings: ServerSettings, engine: Engine) -> Host {
     let tls = if settings.tls.cert.is_some() { settings.tls } else { authority.service() };
     let mut host = Host::with(ServerSettings { tls, ..settings }, engine).await;
     let config = ClientConfig::clone(&authority.client(None));
@@ -35,7 +35,7 @@ async fn secure_host(authority: &Authority, settings: ServerSettings, engine: En
 }
 
 /// A connection of a client's, or why there is none.
-async fn connect(host: &Host, client: &Arc<ClientConfig>) -> io::Result<TlsStream<TcpStream>> {
+pub(crate) async fn connect(host: &Host, client: &Arc<ClientConfig>) -> io::Result<TlsStream<TcpStream>> {
     let stream = TcpStream::connect(host.address).await.unwrap();
     let name = ServerName::try_from("localhost").unwrap();
     timeout(PATIENCE, TlsConnector::from(Arc::clone(client)).connect(name, stream)).await.unwrap()

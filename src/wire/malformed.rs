@@ -1,0 +1,132 @@
+//! Says what is wrong with a body that is no JSON, in words for somebody who did not mean to write anything else.
+
+use core::fmt;
+
+use super::code::ErrorCode;
+use super::problem::{ErrorItem, Problem, ProblemKind};
+use super::walk::{NoNumber, Slip, walk};
+
+/// What some editors put before a text in UTF-8; no part of JSON.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+/// How a text begins that gzip has compressed.
+const GZIP: &[u8] = b"\x1f\x8b";
+/// The longest id that is shown, characters: that of an object.
+const MAX_SHOWN_ID: usize = 128;
+
+/// The problem of a body that the JSON library does not read, for this reason.
+pub(super) fn malformed(body: &[u8], error: &serde_json::Error) -> Problem {
+    let faults = faults(body, error);
+    let detail = faults.first().map(|fault| fault.detail.clone()).unwrap_or_default();
+    Problem::new(ProblemKind::MalformedJson, detail).with_errors(faults)
+}
+
+fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
+    if body.trim_ascii().is_empty() {
+        return vec![fault("", format_args!("the body is empty"))];
+    }
+    let whole = |what: fmt::Arguments<'_>| vec![no_json("", what)];
+    if let Some(encoding) = wide_encoding(body) {
+        return whole(format_args!("it is a text in {encoding}; send UTF-8"));
+    }
+    if body.starts_with(BYTE_ORDER_MARK) {
+        return whole(format_args!("it begins with a byte order mark; send UTF-8 without"));
+    }
+    if body.starts_with(GZIP) {
+        return whole(format_args!("it is compressed by gzip; send it as it is"));
+    }
+    let (found, mut places) = (walk(body), Places::of(body));
+    let mut faults: Vec<ErrorItem> =
+        found.no_numbers.iter().map(|no_number| of_no_number(no_number, places.at(no_number.at))).collect();
+    faults.extend(found.slip.map(|(slip, at)| no_json("", format_args!("{}", sentence(&slip, places.at(at))))));
+    if !faults.is_empty() {
+        return faults;
+    }
+    match core::str::from_utf8(body).map_err(|wrong| wrong.valid_up_to()) {
+        Ok(_) => whole(format_args!("{error}")),
+        Err(at) => whole(format_args!("the byte 0x{:02x} at {} is not UTF-8", body[at], places.at(at))),
+    }
+}
+
+fn fault(pointer: &str, detail: fmt::Arguments<'_>) -> ErrorItem {
+    ErrorItem { code: ErrorCode::MalformedJson, pointer: pointer.to_owned(), detail: detail.to_string() }
+}
+
+fn no_json(pointer: &str, what: fmt::Arguments<'_>) -> ErrorItem {
+    fault(pointer, format_args!("the body is not JSON: {what}"))
+}
+
+fn of_no_number(no_number: &NoNumber, line: Place) -> ErrorItem {
+    let NoNumber { word, pointer, id, .. } = no_number;
+    let shown = id.as_ref().filter(|id| id.chars().count() <= MAX_SHOWN_ID);
+    let object = shown.map(|id| format!(" of object '{id}'")).unwrap_or_default();
+    let place = if pointer.is_empty() { String::new() } else { format!(", in {pointer}{object}") };
+    no_json(pointer, format_args!("{word} stands at {line}{place}; JSON has only finite numbers"))
+}
+
+fn sentence(slip: &Slip, place: Place) -> String {
+    match slip {
+        Slip::Comment => format!("a comment stands at {place}; JSON has no comments"),
+        Slip::Quote(kind) => {
+            format!("a {kind} quote stands at {place}; JSON puts names and texts in double quotes")
+        }
+        Slip::TrailingComma => format!("a trailing comma stands at {place}; no comma follows the last entry"),
+        Slip::Word(word) => match word.to_ascii_lowercase().as_str() {
+            same @ ("true" | "false" | "null") => format!("{word} stands at {place}; JSON writes {same}"),
+            "none" => format!("{word} stands at {place}; JSON writes null"),
+            _ => format!("the word '{word}' stands at {place}; JSON puts texts in double quotes"),
+        },
+        Slip::BareName(name) => {
+            format!("the name '{name}' at {place} has no quotes; JSON puts names in double quotes")
+        }
+    }
+}
+
+/// The encoding of a text that has zero bytes between its letters.
+fn wide_encoding(body: &[u8]) -> Option<&'static str> {
+    // The first letter of a request is ASCII, and a byte order mark may stand before it.
+    match body {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] | [_, 0, 0, 0, ..] | [0, 0, 0, _, ..] => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [1..=255, 0, ..] | [0, 1..=255, ..] => Some("UTF-16"),
+        _ => None,
+    }
+}
+
+/// A place in a text, as editors count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Place {
+    line: usize,
+    column: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {} column {}", self.line, self.column)
+    }
+}
+
+/// Finds places one after the other, so that many of them cost one pass over the text.
+pub(super) struct Places<'t> {
+    text: &'t [u8],
+    at: usize,
+    place: Place,
+}
+
+impl<'t> Places<'t> {
+    pub(super) fn of(text: &'t [u8]) -> Self {
+        Self { text, at: 0, place: Place { line: 1, column: 1 } }
+    }
+
+    /// The place of this byte, which does not stand before the one of the last question.
+    pub(super) fn at(&mut self, at: usize) -> Place {
+        for &byte in self.text.get(self.at..at).unwrap_or_default() {
+            if byte == b'\n' {
+                self.place = Place { line: self.place.line + 1, column: 1 };
+            } else if byte & 0xc0 != 0x80 {
+                // Any other byte continues a letter.
+                self.place.column += 1;
+            }
+        }
+        self.at = self.at.max(at);
+        self.place
+    }
+}
