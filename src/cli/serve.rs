@@ -55,9 +55,8 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let listen = place.local_addr().map_err(cannot_listen)?;
     let mut shutdown = pin!(stop_signal().map_err(broken)?);
     config.server.connections = open_files::room_for(config.server.connections);
-    config.warning().into_iter().for_each(|warning| tracing::warn!(%listen, "{warning}"));
+    opening(&config, listen);
     let (greeting, threads) = (greeting(listen, &config.server), config.server.threads);
-    tracing::info!("opening the store of jobs");
     let server = Server::open(config.server, Engine::default(), shutdown.as_mut()).await.map_err(broken)?;
     let Some(server) = server else { return Ok(()) };
     let listener = place.listen(BACKLOG).map_err(cannot_listen)?;
@@ -65,6 +64,14 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     output::print(&greeting)?;
     server.serve(listener, shutdown).await;
     Ok(())
+}
+
+/// What the log says before there is a service.
+fn opening(config: &Config, listen: SocketAddr) {
+    if let Some(warning) = config.warning() {
+        tracing::warn!(%listen, "{warning}");
+    }
+    tracing::info!("opening the store of jobs");
 }
 
 /// A socket that has its address and lets nobody in yet.
