@@ -6,6 +6,8 @@ use std::sync::LazyLock;
 use axum::http::header;
 use axum::response::IntoResponse;
 use utoipa::openapi::header::HeaderBuilder;
+use utoipa::openapi::path::{Operation, Parameter};
+use utoipa::openapi::schema::SchemaType;
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{ContentBuilder, ObjectBuilder, PathItem, Ref, RefOr, Response, ResponseBuilder, Schema, Type};
 use utoipa::{IntoResponses, OpenApi};
@@ -49,7 +51,10 @@ fn blank() -> utoipa::openapi::OpenApi {
 pub fn openapi() -> utoipa::openapi::OpenApi {
     let blank = OpenApiRouter::with_openapi(blank());
     let routed = router::operations().into_iter().fold(blank, |router, (need, (schemas, mut paths, route))| {
-        paths.paths.values_mut().for_each(|item| describe_need(need, item));
+        paths.paths.values_mut().for_each(|item| {
+            describe_need(need, item);
+            describe_parameters(item);
+        });
         router.routes((schemas, paths, route))
     });
     let mut document = routed.into_openapi();
@@ -78,8 +83,7 @@ fn describe_need(need: Need, item: &mut PathItem) {
     };
     // One document for every service, with keys or without: a client made from either knows where its key goes.
     let security = [&[SecurityRequirement::default()], &security[..]].concat();
-    let operations = [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten();
-    for operation in operations {
+    for operation in operations(item) {
         operation.security = Some(security.clone());
         for &(kind, description, detail) in problems {
             let example = Problem::new(kind, detail);
@@ -92,6 +96,22 @@ fn describe_need(need: Need, item: &mut PathItem) {
             operation.responses.responses.insert(example.status().to_string(), response.into());
         }
     }
+}
+
+/// The derive makes "text or null" of a header that may be absent, but a header is never null.
+fn describe_parameters(item: &mut PathItem) {
+    for parameter in operations(item).filter_map(|operation| operation.parameters.as_mut()).flatten() {
+        if let RefOr::T(Parameter { schema: Some(RefOr::T(Schema::Object(schema))), .. }) = parameter
+            && let SchemaType::Array(types) = &schema.schema_type
+            && let Some(stated) = types.iter().find(|stated| **stated != Type::Null)
+        {
+            schema.schema_type = SchemaType::Type(stated.clone());
+        }
+    }
+}
+
+fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut Operation> {
+    [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten()
 }
 
 /// The derive describes only the reference in "reference or null"; the description belongs to the field.

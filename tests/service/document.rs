@@ -116,6 +116,9 @@ fn every_operation_is_described() {
         for field in ["operationId", "summary", "description"] {
             assert!(operation[field].is_string(), "{operation}");
         }
+        for parameter in operation["parameters"].as_array().into_iter().flatten() {
+            assert!(!parameter["schema"].to_string().contains("null"), "it is absent, never null: {parameter}");
+        }
         for (status, response) in operation["responses"].as_object().unwrap() {
             let content = response["content"].is_object();
             assert!(response["description"].is_string() && content == (status != "204"), "{operation}");
