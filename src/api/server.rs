@@ -65,7 +65,7 @@ impl Server {
         connections.serve_until(shutdown).await;
         drain(&app, connections, &background).await;
         if let Err(error) = app.store.close().await {
-            tracing::warn!(%error, "the store of jobs could not be brought in order; a SQLite file may need those beside it");
+            tracing::warn!(%error, "the store of jobs was not closed in order; a copy of a SQLite file needs the -wal beside it");
         }
     }
 }

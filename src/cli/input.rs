@@ -30,10 +30,15 @@ fn name(path: &Path) -> String {
 /// What is wrong with a file, one line a fault.
 pub(super) fn refused(path: &Path, problem: &Problem) -> Failure {
     let mut lines = vec![format!("{}: {}", name(path), plain(problem.detail()))];
-    // A text that is no JSON has one fault, and the first line tells it.
-    for error in problem.errors().iter().filter(|error| error.detail != problem.detail()) {
-        let pointer = if error.pointer.is_empty() { "(the whole)" } else { &plain(&error.pointer) };
-        lines.push(format!("  {}  {pointer}  {}", error.code, plain(&error.detail)));
+    for error in problem.errors() {
+        let see = error.see();
+        if error.detail == problem.detail() {
+            // A text that is no JSON has one fault, and the first line tells it.
+            lines[0] += &format!(" ({see})");
+        } else {
+            let pointer = if error.pointer.is_empty() { "(the whole)" } else { &plain(&error.pointer) };
+            lines.push(format!("  {}  {pointer}  {} ({see})", error.code, plain(&error.detail)));
+        }
     }
     Failure::Refused(lines.join("\n"))
 }

@@ -204,12 +204,19 @@ pub static SETTINGS: &[Setting] = &[
         name: "overlap_tolerance",
         needed_by: NeededBy::Planning,
         placeholder: "METRES",
-        help: "How deep two discs may overlap and still pass as perception noise",
+        help: "How deep two discs may overlap and still pass as perception noise, in a scene that does not say",
         value: Value::Number {
             least: 0.0,
             most: 1e3,
             field: |config| &mut config.server.limits.scene.overlap_tolerance,
         },
+    },
+    Setting {
+        name: "max_overlap_tolerance",
+        needed_by: NeededBy::Planning,
+        placeholder: "METRES",
+        help: "The greatest `overlap_tolerance` that a scene may name; `--overlap-tolerance` where that is more",
+        value: Value::Number { least: 0.0, most: 1e3, field: |config| &mut config.server.limits.max_overlap_tolerance },
     },
     Setting {
         name: "raster_resolution",

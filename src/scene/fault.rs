@@ -1,10 +1,16 @@
 //! What can be wrong with a scene, as data: the place and the kind.
 
+use core::fmt;
+
+use super::Rectangle;
+
 /// Where in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The list of objects as a whole.
     Objects,
+    /// The table as a whole.
+    WholeTable,
     /// A field of the table top.
     Table(&'static str),
     /// A field of the n-th keep-out rectangle.
@@ -19,7 +25,8 @@ pub enum Place {
     Target,
 }
 
-/// What is wrong there, or (for an overlap within the tolerance and overlapping fingers) worth a warning.
+/// What is wrong there, or worth a warning: an overlap within the tolerance, fingers that overlap, a disc that hangs over the
+/// table's edge, a number that looks like a slip of its unit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Flaw {
     /// A number outside its range, bounds included.
@@ -30,6 +37,14 @@ pub enum Flaw {
         /// The least admitted value.
         min: f64,
         /// The greatest admitted value.
+        max: f64,
+    },
+    /// A yaw tolerance above its range.
+    #[error("{value} is not between 0 and {max}: degrees instead of radians?")]
+    AngleOutOfRange {
+        /// The number given.
+        value: f64,
+        /// The greatest admitted value, rad.
         max: f64,
     },
     /// A count that is not a whole number.
@@ -74,15 +89,19 @@ pub enum Flaw {
     #[error("the target '{0}' is fixed")]
     FixedTarget(String),
     /// The centre is not on the table.
-    #[error("the centre ({x}, {y}) is not on the table")]
+    #[error("the centre ({x}, {y}) is not on the table ({top}){likely}")]
     OffTable {
         /// Centre, m.
         x: f64,
         /// Centre, m.
         y: f64,
+        /// The table top.
+        top: Rectangle,
+        /// The likely cause.
+        likely: Likely,
     },
     /// Two discs overlap.
-    #[error("overlaps '{other}' by {depth:.6} m (tolerance {tolerance} m)")]
+    #[error("overlaps '{other}' by {depth:.6} m (tolerance {tolerance} m){likely}")]
     Overlap {
         /// The other object's id.
         other: String,
@@ -90,6 +109,8 @@ pub enum Flaw {
         depth: f64,
         /// What counts as perception noise, m.
         tolerance: f64,
+        /// The likely cause.
+        likely: Likely,
     },
     /// More obstacles within reach of one grasp than the limit.
     #[error("a grasp of '{id}' has more than {max} obstacles in reach")]
@@ -98,6 +119,33 @@ pub enum Flaw {
         id: String,
         /// The most that is admitted.
         max: usize,
+    },
+    /// A disc hangs over the table's edge by more than a third of its radius.
+    #[error("hangs over the table's edge by {overhang:.6} m, more than a third of its radius {radius} m")]
+    HangsOverTable {
+        /// How far, m.
+        overhang: f64,
+        /// r, m.
+        radius: f64,
+    },
+    /// With this yaw tolerance one obstacle in reach blocks every yaw.
+    #[error(
+        "a yaw tolerance of {tolerance} rad is π/{fingers} or more, so one obstacle in reach blocks every yaw: degrees \
+         instead of radians?"
+    )]
+    WideYawTolerance {
+        /// The tolerance, rad.
+        tolerance: f64,
+        /// k.
+        fingers: u32,
+    },
+    /// A length that no other length of the scene goes with.
+    #[error("{length} m is out of all proportion to {yardstick}: millimetres instead of metres?")]
+    OutOfProportion {
+        /// The length, m.
+        length: f64,
+        /// What it was compared with.
+        yardstick: Yardstick,
     },
     /// Neighbouring fingers overlap at the edge of the object.
     #[error("fingers of width {finger_width} m overlap round '{id}' of radius {radius} m")]
@@ -109,6 +157,51 @@ pub enum Flaw {
         /// r, m.
         radius: f64,
     },
+}
+
+/// The likely cause of a fault, as the end of its sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Likely {
+    /// None stands out.
+    Open,
+    /// The objects are given in another unit, or in another frame than the table.
+    FrameOrUnit,
+    /// Two detections of one object.
+    SeenTwice,
+    /// The lengths are no metres, or two detections of one object.
+    UnitOrSeenTwice,
+}
+
+impl fmt::Display for Likely {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Open => "",
+            Self::FrameOrUnit => ": another frame, or millimetres instead of metres?",
+            Self::SeenTwice => ": one object seen twice?",
+            Self::UnitOrSeenTwice => ": millimetres instead of metres, or one object seen twice?",
+        })
+    }
+}
+
+/// A length that another one is compared with, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Yardstick {
+    /// The largest radius of an object.
+    LargestRadius(f64),
+    /// The smallest radius of an object.
+    SmallestRadius(f64),
+    /// The sides of the table.
+    Table(f64, f64),
+}
+
+impl fmt::Display for Yardstick {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LargestRadius(radius) => write!(f, "the largest radius, {radius} m"),
+            Self::SmallestRadius(radius) => write!(f, "the smallest radius, {radius} m"),
+            Self::Table(x, y) => write!(f, "the table of {x:.3} m by {y:.3} m"),
+        }
+    }
 }
 
 /// A flaw and its place.

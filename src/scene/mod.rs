@@ -8,15 +8,17 @@ mod fault;
 mod gripper;
 mod index;
 mod object;
+mod relations;
 #[cfg(test)]
 pub(crate) mod scenes;
+mod slips;
 mod table;
 mod validate;
 
 use std::sync::Arc;
 
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
-pub use fault::{Finding, Flaw, MAX_FINDINGS, Place};
+pub use fault::{Finding, Flaw, Likely, MAX_FINDINGS, Place, Yardstick};
 pub use gripper::{Gripper, MIN_FREE_WIDTH};
 pub use index::DiscIndex;
 pub use object::{Disc, Object, ObjectIndex, distance};

@@ -1,5 +1,7 @@
 //! The table and the parts of it where nothing may be placed.
 
+use core::fmt;
+
 use nalgebra::Point2;
 
 use super::object::Disc;
@@ -12,6 +14,11 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// Its sides along x and y, m.
+    pub fn sides(&self) -> (f64, f64) {
+        (self.max.x - self.min.x, self.max.y - self.min.y)
+    }
+
     /// Lower left corner.
     pub fn min(&self) -> Point2<f64> {
         self.min
@@ -40,6 +47,13 @@ impl Rectangle {
         let x = (self.min.x - c.x).max(c.x - self.max.x).max(0.0);
         let y = (self.min.y - c.y).max(c.y - self.max.y).max(0.0);
         (x * x + y * y).sqrt() - disc.radius
+    }
+}
+
+impl fmt::Display for Rectangle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { min, max } = self;
+        write!(f, "x from {} to {}, y from {} to {}", min.x, max.x, min.y, max.y)
     }
 }
 

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use nalgebra::Point2;
 
 use super::fault::{Finding, Findings, Flaw, Place};
+use super::relations::{overhangs, overlaps, reach};
+use super::slips;
 use super::{
     Disc, DiscIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Parts, Rectangle, RectangleDraft, Scene,
     SceneDraft, Table, TableDraft,
@@ -48,9 +50,6 @@ impl Default for SceneLimits {
     }
 }
 
-/// An overlap of just the tolerance, written in decimals, may come out deeper by the rounding of its figures; m.
-const ROUNDING: f64 = 1e-9;
-
 pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene, Vec<Finding>), Vec<Finding>> {
     let mut faults = Findings::default();
     let mut warnings = Findings::default();
@@ -71,6 +70,11 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
     let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
     let index = DiscIndex::new(objects.iter().map(Object::disc));
+    if let (Some(table), Some(gripper)) = (&table, &gripper) {
+        // Before all that such a slip brings with it.
+        slips::slips(table.top, gripper, &objects, &mut warnings);
+        overhangs(table.top, &objects, &mut warnings);
+    }
     overlaps(&objects, &index, limits, &mut faults, &mut warnings);
     if let Some(gripper) = &gripper {
         reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
@@ -133,7 +137,7 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
     let finger_width = field(draft.finger_width, LENGTH_RANGE, "finger_width");
     let clearance = field(draft.clearance, LENGTH_RANGE, "clearance");
     let margin = field(draft.margin, MARGIN_RANGE, "margin");
-    let yaw_tolerance = field(draft.yaw_tolerance, YAW_TOLERANCE_RANGE, "yaw_tolerance");
+    let yaw_tolerance = yaw_tolerance(draft.yaw_tolerance, faults);
     let fingers = fingers.and_then(|value| {
         if value.fract() == 0.0 {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 12")]
@@ -149,6 +153,15 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
         margin: margin?,
         yaw_tolerance: yaw_tolerance?,
     })
+}
+
+fn yaw_tolerance(value: Option<f64>, faults: &mut Findings) -> Option<f64> {
+    let (place, max) = (Place::Gripper("yaw_tolerance"), YAW_TOLERANCE_RANGE.1);
+    if let Some(value) = value.filter(|value| *value > max) {
+        faults.add(place, Flaw::AngleOutOfRange { value, max });
+        return None;
+    }
+    ranged(value, YAW_TOLERANCE_RANGE, place, faults)
 }
 
 /// The first position of every id that could be read.
@@ -173,8 +186,9 @@ fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Fi
     let y = field(draft.y, COORDINATE_RANGE, "y");
     let radius = field(draft.radius, LENGTH_RANGE, "radius");
     let centre = Point2::new(x?, y?);
-    if table.is_some_and(|table| !table.top.contains(centre)) {
-        faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y });
+    if let Some(top) = table.map(|table| table.top).filter(|top| !top.contains(centre)) {
+        let likely = slips::off_table(top, centre);
+        faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y, top, likely });
     }
     Some(Object { id: draft.id.clone()?, disc: Disc { centre, radius: radius? }, fixed: draft.fixed })
 }
@@ -197,63 +211,4 @@ fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults:
         None => {}
     }
     None
-}
-
-/// Every overlapping pair once: a fault past the tolerance, a warning up to it. A disc that overlaps more others than a
-/// grasp may have neighbours is refused for that, which bounds the work.
-fn overlaps(
-    objects: &[Object],
-    index: &DiscIndex,
-    limits: &SceneLimits,
-    faults: &mut Findings,
-    warnings: &mut Findings,
-) {
-    let (tolerance, max) = (limits.overlap_tolerance, limits.max_neighbours);
-    for (at, object) in objects.iter().enumerate() {
-        let disc = object.disc;
-        let near = index.within(disc.centre, disc.radius);
-        let mut touched: Vec<ObjectIndex> = near.map(|(other, _)| other).take(max + 2).collect();
-        if touched.len() > max + 1 {
-            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: object.id.clone(), max });
-        }
-        touched.retain(|other| other.get() < at);
-        touched.sort_unstable();
-        for other in touched {
-            let other = &objects[other.get()];
-            let depth = -disc.gap(&other.disc);
-            let list = if depth > tolerance + ROUNDING { &mut *faults } else { &mut *warnings };
-            list.add(Place::WholeObject(at), Flaw::Overlap { other: other.id.clone(), depth, tolerance });
-        }
-        if faults.full() {
-            return;
-        }
-    }
-}
-
-/// Grasps with too many obstacles in reach, and fingers that overlap each other.
-fn reach(
-    gripper: &Gripper,
-    objects: &[Object],
-    index: &DiscIndex,
-    limits: &SceneLimits,
-    faults: &mut Findings,
-    warnings: &mut Findings,
-) {
-    let half_angle_tangent = libm::tan(gripper.period() / 2.0);
-    for (at, object) in objects.iter().enumerate().filter(|(_, object)| !object.fixed) {
-        let Disc { centre, radius } = object.disc;
-        let id = || object.id.clone();
-        let reach = gripper.corner_distance(radius) + gripper.margin;
-        // The index finds the object itself too.
-        if index.within(centre, reach).take(limits.max_neighbours + 2).count() > limits.max_neighbours + 1 {
-            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
-        }
-        if gripper.finger_width / 2.0 > radius * half_angle_tangent {
-            let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
-            warnings.add(Place::WholeObject(at), flaw);
-        }
-        if faults.full() {
-            return;
-        }
-    }
 }

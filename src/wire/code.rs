@@ -5,8 +5,10 @@ use core::fmt;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The kinds of fault of a request. Two of them are warnings instead: an overlap within the tolerance, and fingers that
-/// overlap.
+/// The page that explains every word of this kind, in the project's sources.
+pub(super) const ERRORS_PAGE: &str = "docs/errors.md";
+
+/// The kinds of fault of a request. Some are only ever warnings, and an overlap within the tolerance is one too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "out_of_range")]
@@ -39,6 +41,12 @@ pub enum ErrorCode {
     Overlap,
     /// The fingers overlap each other. Only ever a warning.
     FingersOverlap,
+    /// An object hangs over the table's edge. Only ever a warning.
+    HangsOverTable,
+    /// A yaw tolerance that every obstacle in reach exceeds; degrees for radians? Only ever a warning.
+    WideYawTolerance,
+    /// A length that does not go with the rest of the scene; millimetres for metres? Only ever a warning.
+    OutOfProportion,
     /// The target is no object of the scene.
     UnknownTarget,
     /// The target can't be moved.
@@ -69,6 +77,13 @@ pub enum ErrorCode {
     UnknownParameter,
     /// A parameter that is there twice.
     RepeatedParameter,
+}
+
+impl ErrorCode {
+    /// Where it is explained.
+    pub(super) fn entry(self) -> String {
+        format!("{ERRORS_PAGE}#{self}")
+    }
 }
 
 impl fmt::Display for ErrorCode {

@@ -37,6 +37,7 @@ fn at<T>(scene: &Path<'_>, place: Place, arrive: &mut dyn FnMut(&Path<'_>) -> T)
         Place::Objects => arrive(&objects),
         Place::Object(n, name) => arrive(&objects.item(n).field(name)),
         Place::WholeObject(n) => arrive(&objects.item(n)),
+        Place::WholeTable => arrive(&scene.field("table")),
         Place::Table(name) => arrive(&scene.field("table").field(name)),
         Place::KeepOut(n, name) => arrive(&scene.field("table").field("keep_out").item(n).field(name)),
         Place::Gripper(name) => arrive(&scene.field("gripper").field(name)),
@@ -46,7 +47,7 @@ fn at<T>(scene: &Path<'_>, place: Place, arrive: &mut dyn FnMut(&Path<'_>) -> T)
 
 fn code(flaw: &Flaw) -> ErrorCode {
     match flaw {
-        Flaw::OutOfRange { .. } => ErrorCode::OutOfRange,
+        Flaw::OutOfRange { .. } | Flaw::AngleOutOfRange { .. } => ErrorCode::OutOfRange,
         Flaw::NotWhole(_) => ErrorCode::NotWhole,
         Flaw::EmptyRectangle { .. } => ErrorCode::EmptyRectangle,
         Flaw::IdLength { .. } => ErrorCode::IdLength,
@@ -58,5 +59,8 @@ fn code(flaw: &Flaw) -> ErrorCode {
         Flaw::Overlap { .. } => ErrorCode::Overlap,
         Flaw::TooManyNeighbours { .. } => ErrorCode::TooManyNeighbours,
         Flaw::FingersOverlap { .. } => ErrorCode::FingersOverlap,
+        Flaw::HangsOverTable { .. } => ErrorCode::HangsOverTable,
+        Flaw::WideYawTolerance { .. } => ErrorCode::WideYawTolerance,
+        Flaw::OutOfProportion { .. } => ErrorCode::OutOfProportion,
     }
 }

@@ -48,7 +48,7 @@ fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
 }
 
 fn fault(pointer: &str, detail: fmt::Arguments<'_>) -> ErrorItem {
-    ErrorItem { code: ErrorCode::MalformedJson, pointer: pointer.to_owned(), detail: detail.to_string() }
+    ErrorItem::new(ErrorCode::MalformedJson, pointer, detail.to_string())
 }
 
 fn no_json(pointer: &str, what: fmt::Arguments<'_>) -> ErrorItem {

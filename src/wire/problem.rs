@@ -6,7 +6,7 @@ use core::time::Duration;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::code::ErrorCode;
+use super::code::{ERRORS_PAGE, ErrorCode};
 
 /// One thing that is wrong with a request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
@@ -19,6 +19,21 @@ pub struct ErrorItem {
     /// One sentence for people.
     #[schema(example = "-0.075 is not between 0.000001 and 1000")]
     pub detail: String,
+    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    #[schema(example = "docs/errors.md#out_of_range")]
+    see: String,
+}
+
+impl ErrorItem {
+    /// A fault of this kind.
+    pub fn new(code: ErrorCode, pointer: impl Into<String>, detail: impl Into<String>) -> Self {
+        Self { code, pointer: pointer.into(), detail: detail.into(), see: code.entry() }
+    }
+
+    /// Where its cause and its cure are explained.
+    pub fn see(&self) -> &str {
+        &self.see
+    }
 }
 
 /// One thing that is worth knowing about a scene or an answer, in the same form as a fault.
@@ -115,6 +130,12 @@ pub enum ProblemKind {
 }
 
 impl ProblemKind {
+    /// Where it is explained.
+    fn entry(self) -> String {
+        let uri = self.to_string();
+        format!("{ERRORS_PAGE}#problem-{}", uri.rsplit(':').next().unwrap_or_default())
+    }
+
     /// The status code and the title.
     fn status_and_title(self) -> (u16, &'static str) {
         match self {
@@ -177,11 +198,15 @@ pub struct Problem {
     /// What happened this time.
     #[schema(example = "1 fault")]
     detail: String,
+    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    #[schema(example = "docs/errors.md#problem-invalid_request")]
+    see: String,
     /// Every fault of the body that was found, 1000 at the most; empty where the body is not to blame.
     #[schema(max_items = 1000, example = json!([{
         "code": "out_of_range",
         "pointer": "/objects/3/radius",
-        "detail": "-0.075 is not between 0.000001 and 1000"
+        "detail": "-0.075 is not between 0.000001 and 1000",
+        "see": "docs/errors.md#out_of_range"
     }]))]
     errors: Vec<ErrorItem>,
     /// When to come again, where that is known; goes out as a header.
@@ -194,7 +219,7 @@ impl Problem {
     /// A problem of this kind.
     pub fn new(kind: ProblemKind, detail: impl Into<String>) -> Self {
         let (status, title) = kind.status_and_title();
-        Self { kind, title, status, detail: detail.into(), errors: Vec::new(), retry_after: None }
+        Self { kind, title, status, detail: detail.into(), see: kind.entry(), errors: Vec::new(), retry_after: None }
     }
 
     /// A body with these faults.
@@ -205,7 +230,7 @@ impl Problem {
 
     /// A scene that is in order, but too dense to be planned for within the limits on memory.
     pub fn too_dense(detail: String) -> Self {
-        Self::invalid(vec![ErrorItem { code: ErrorCode::TooDense, pointer: "/objects".to_owned(), detail }])
+        Self::invalid(vec![ErrorItem::new(ErrorCode::TooDense, "/objects", detail)])
     }
 
     /// The same problem with these faults.
@@ -261,7 +286,7 @@ impl fmt::Display for Problem {
     /// The title and the detail, then one line a fault.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.title, self.detail)?;
-        for ErrorItem { code, pointer, detail } in self.errors.iter().filter(|error| !error.pointer.is_empty()) {
+        for ErrorItem { code, pointer, detail, .. } in self.errors.iter().filter(|error| !error.pointer.is_empty()) {
             write!(f, "\n  {pointer}: {detail} ({code})")?;
         }
         Ok(())

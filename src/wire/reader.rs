@@ -49,7 +49,7 @@ pub(super) struct Faults {
 impl Faults {
     pub(super) fn add(&mut self, code: ErrorCode, path: &Path<'_>, detail: fmt::Arguments<'_>) {
         if self.items.len() < MAX_FAULTS {
-            self.items.push(ErrorItem { code, pointer: path.to_string(), detail: detail.to_string() });
+            self.items.push(ErrorItem::new(code, path.to_string(), detail.to_string()));
         }
     }
 
@@ -71,10 +71,9 @@ pub(super) fn parse(body: &[u8]) -> Result<(Value, Faults), Problem> {
     let mut faults = Faults::default();
     if repeats(body, &value) {
         let mut places = Places::of(body);
-        faults.items.extend(walk(body).repeated.into_iter().map(|Repeated { name, at, pointer }| ErrorItem {
-            code: ErrorCode::RepeatedField,
-            pointer,
-            detail: format!("'{name}' is there a second time, at {}", places.at(at)),
+        faults.items.extend(walk(body).repeated.into_iter().map(|Repeated { name, at, pointer }| {
+            let detail = format!("'{name}' is there a second time, at {}", places.at(at));
+            ErrorItem::new(ErrorCode::RepeatedField, pointer, detail)
         }));
     }
     Ok((value, faults))
@@ -141,6 +140,16 @@ impl<'a> Node<'a> {
             );
         }
         value
+    }
+
+    /// A number from `min` to `max`.
+    pub(super) fn ranged(&self, (min, max): (f64, f64), faults: &mut Faults) -> Option<f64> {
+        let value = self.number(faults)?;
+        if !(min..=max).contains(&value) {
+            faults.add(ErrorCode::OutOfRange, self.path, format_args!("{value} is not between {min} and {max}"));
+            return None;
+        }
+        Some(value)
     }
 
     /// A whole number from `min` to `max`; 3.0 is one.

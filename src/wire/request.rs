@@ -17,8 +17,11 @@ pub const MAX_SCENE_ID_LENGTH: usize = 256;
 /// What a request may ask for at the most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RequestLimits {
-    /// The limits of a scene.
+    /// The limits of a scene; its overlap tolerance holds where a request names none.
     pub scene: SceneLimits,
+    /// The greatest overlap tolerance that a request may name, m; see also
+    /// [`greatest_overlap_tolerance`](Self::greatest_overlap_tolerance).
+    pub max_overlap_tolerance: f64,
     /// The time limit of a request that names none.
     pub default_time_limit: Duration,
     /// The longest time limit that a request may name.
@@ -31,12 +34,21 @@ impl Default for RequestLimits {
     fn default() -> Self {
         Self {
             scene: SceneLimits::default(),
+            // Two centres that are off by 5 mm each. Past that most dishes of a scene would be noise.
+            max_overlap_tolerance: 1e-2,
             // A thousand times what most scenes take, and a robot bears to wait so long.
             default_time_limit: Duration::from_millis(1000),
             // The paper's own limit. Whoever has more time has a thread for as long.
             max_time_limit: Duration::from_millis(60_000),
             raster_resolution: DEFAULT_RESOLUTION,
         }
+    }
+}
+
+impl RequestLimits {
+    /// The greatest overlap tolerance that a request may name, m. What holds where it names none, it may always name.
+    pub fn greatest_overlap_tolerance(&self) -> f64 {
+        self.max_overlap_tolerance.max(self.scene.overlap_tolerance)
     }
 }
 
@@ -49,6 +61,8 @@ pub struct PlanRequest {
     pub scene_id: Option<String>,
     /// How to plan.
     pub settings: Settings,
+    /// How deep the scene's discs may overlap, m.
+    pub overlap_tolerance: f64,
     /// The time for waiting and planning.
     pub time_limit: Duration,
     /// What is worth knowing about the scene.
@@ -92,7 +106,7 @@ pub(super) fn request(
     let objects = fields.required("objects", faults, |node, faults| objects(node, limits, faults));
     let target = fields.required("target", faults, |node, faults| node.text(faults));
     let settings = fields.optional("settings", StatedSettings::absent(limits), faults, |node, faults| {
-        StatedSettings::read(node, limits, faults)
+        Some(StatedSettings::read(node, limits, faults))
     });
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
@@ -101,11 +115,13 @@ pub(super) fn request(
         target: target.filter(|_| objects.is_some()),
         objects: objects.unwrap_or_default(),
     };
-    match Scene::new(draft, &limits.scene) {
+    let settings = settings?;
+    let overlap_tolerance = settings.overlap_tolerance(limits);
+    match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
         Ok((scene, warnings)) => {
             let warnings = warnings.iter().map(|warning| finding::item(node.path(), warning)).collect();
-            let (settings, time_limit) = settings?.on(scene.table(), limits, node, faults)?;
-            Some(PlanRequest { scene, scene_id: scene_id?, settings, time_limit, warnings })
+            let (settings, time_limit) = settings.on(scene.table(), limits, node, faults)?;
+            Some(PlanRequest { scene, scene_id: scene_id?, settings, overlap_tolerance, time_limit, warnings })
         }
         Err(findings) => {
             findings.iter().for_each(|fault| finding::note(node.path(), fault, faults));

@@ -3,17 +3,26 @@
 use core::time::Duration;
 
 use super::code::ErrorCode;
-use super::reader::{Faults, Names, Node};
+use super::reader::{Faults, Fields, Names, Node};
 use super::request::RequestLimits;
 use crate::paper::Raster;
 use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
 use crate::scene::Table;
 
-const SETTINGS: Names = Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms"]);
+const SETTINGS: Names =
+    Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms", "overlap_tolerance"]);
 
 /// What a request says of its settings, as far as that can be told without its table.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StatedSettings {
+    /// How deep discs may overlap, m; `None` where that is unreadable.
+    overlap_tolerance: Option<f64>,
+    /// All else; `None` where any of it is unreadable.
+    planning: Option<StatedPlanning>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct StatedPlanning {
     settings: Settings,
     raster: bool,
     time_limit: Duration,
@@ -22,13 +31,57 @@ pub(super) struct StatedSettings {
 impl StatedSettings {
     /// Where nothing is said.
     pub(super) fn absent(limits: &RequestLimits) -> Self {
+        let planning = Some(StatedPlanning::absent(limits));
+        Self { overlap_tolerance: Some(limits.scene.overlap_tolerance), planning }
+    }
+
+    pub(super) fn read(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Self {
+        let Some(fields) = node.fields(&SETTINGS, faults) else {
+            return Self { overlap_tolerance: None, planning: None };
+        };
+        let (default, max) = (limits.scene.overlap_tolerance, limits.greatest_overlap_tolerance());
+        let overlap_tolerance =
+            fields.optional("overlap_tolerance", default, faults, |node, faults| node.ranged((0.0, max), faults));
+        Self { overlap_tolerance, planning: StatedPlanning::read(fields, limits, faults) }
+    }
+
+    /// How deep discs may overlap, m. Where the request is unreadable in this, no overlap counts that any request could
+    /// allow: what is wrong has been noted.
+    pub(super) fn overlap_tolerance(&self, limits: &RequestLimits) -> f64 {
+        self.overlap_tolerance.unwrap_or_else(|| limits.greatest_overlap_tolerance())
+    }
+
+    /// The settings on the table that they are for; `request` is where they stand.
+    pub(super) fn on(
+        self,
+        table: &Table,
+        limits: &RequestLimits,
+        request: Node<'_>,
+        faults: &mut Faults,
+    ) -> Option<(Settings, Duration)> {
+        let StatedPlanning { settings, raster, time_limit } = self.overlap_tolerance.and(self.planning)?;
+        if !raster {
+            return Some((settings, time_limit));
+        }
+        match Raster::new(limits.raster_resolution, table) {
+            Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
+            Err(too_fine) => {
+                let settings = request.path().field("settings");
+                faults.add(ErrorCode::TooFine, &settings.field("placement"), format_args!("{too_fine}"));
+                None
+            }
+        }
+    }
+}
+
+impl StatedPlanning {
+    fn absent(limits: &RequestLimits) -> Self {
         let time_limit = limits.default_time_limit.min(limits.max_time_limit);
         Self { settings: Settings::default(), raster: false, time_limit }
     }
 
-    pub(super) fn read(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Self> {
+    fn read(fields: Fields<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Self> {
         let absent = Self::absent(limits);
-        let fields = node.fields(&SETTINGS, faults)?;
         let grasp_models = [("swept_finger", GraspModel::SweptFinger), ("sector", GraspModel::Sector)];
         let grasp_model = fields.optional("grasp_model", absent.settings.grasp_model, faults, |node, faults| {
             node.word(&grasp_models, faults)
@@ -56,27 +109,5 @@ impl StatedSettings {
             objective: objective?,
         };
         Some(Self { settings, raster: raster?, time_limit: time_limit? })
-    }
-
-    /// The settings on the table that they are for; `request` is where they stand.
-    pub(super) fn on(
-        self,
-        table: &Table,
-        limits: &RequestLimits,
-        request: Node<'_>,
-        faults: &mut Faults,
-    ) -> Option<(Settings, Duration)> {
-        let Self { settings, raster, time_limit } = self;
-        if !raster {
-            return Some((settings, time_limit));
-        }
-        match Raster::new(limits.raster_resolution, table) {
-            Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
-            Err(too_fine) => {
-                let settings = request.path().field("settings");
-                faults.add(ErrorCode::TooFine, &settings.field("placement"), format_args!("{too_fine}"));
-                None
-            }
-        }
     }
 }

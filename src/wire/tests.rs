@@ -2,7 +2,9 @@
 
 mod answers;
 mod malformed;
+mod noise;
 mod requests;
+mod slips;
 
 use serde_json::{Value, json};
 

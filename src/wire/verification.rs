@@ -3,6 +3,7 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::code::ERRORS_PAGE;
 use crate::plan::check::{Fault, Report};
 
 /// What the independent checker says of a stated answer.
@@ -13,7 +14,8 @@ pub struct VerificationBody {
     pub valid: bool,
     /// Everything that does not hold.
     #[schema(example = json!([{
-        "code": "unknown_object", "step": 0, "object": "plate-2", "detail": "there is no object 'plate-2'"
+        "code": "unknown_object", "step": 0, "object": "plate-2", "detail": "there is no object 'plate-2'",
+        "see": "docs/errors.md#plan-unknown_object"
     }]))]
     pub faults: Vec<FaultBody>,
 }
@@ -33,6 +35,9 @@ pub struct FaultBody {
     /// One sentence for people.
     #[schema(example = "there is no object 'plate-2'")]
     pub detail: String,
+    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    #[schema(example = "docs/errors.md#plan-unknown_object")]
+    see: String,
 }
 
 impl VerificationBody {
@@ -54,12 +59,16 @@ impl VerificationBody {
 impl FaultBody {
     fn new(fault: &Fault) -> Self {
         let Fault { code, step, object, detail } = fault;
-        Self { code: code.name(), step: *step, object: object.clone(), detail: detail.clone() }
+        Self { step: *step, object: object.clone(), ..Self::of_answer(code.name(), detail) }
+    }
+
+    fn of_answer(code: &'static str, detail: &str) -> Self {
+        let see = format!("{ERRORS_PAGE}#plan-{code}");
+        Self { code, step: None, object: None, detail: detail.to_owned(), see }
     }
 
     fn interrupted() -> Self {
-        let detail = "the time limit came before everything was checked".to_owned();
-        Self { code: "interrupted", step: None, object: None, detail }
+        Self::of_answer("interrupted", "the time limit came before everything was checked")
     }
 }
 

@@ -5,7 +5,7 @@ use crate::plan::check::{self, Report};
 use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
 use crate::scene::Scene;
 use crate::traces::PlanSpan;
-use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody};
+use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
 
 /// The computations. The default is the planner; a test may stand in another.
 #[derive(Clone, Copy)]
@@ -63,5 +63,8 @@ pub fn panicked(request: &PlanRequest) -> Problem {
 }
 
 fn written(request: &PlanRequest) -> String {
-    serde_json::to_string(&SceneBody::new(&request.scene, request.scene_id.as_deref())).unwrap_or_default()
+    // The settings are logged as they are understood; without this one the scene might not be read again.
+    let settings = SettingsBody { overlap_tolerance: Some(request.overlap_tolerance), ..SettingsBody::default() };
+    let scene = SceneBody::new(&request.scene, request.scene_id.as_deref());
+    serde_json::to_string(&SceneBody { settings: Some(settings), ..scene }).unwrap_or_default()
 }

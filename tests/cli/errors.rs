@@ -67,8 +67,8 @@ fn every_fault_of_a_request_is_explained() {
 #[test]
 fn every_warning_is_explained() {
     let mut listed = words("Warnings", 0);
-    // These two are found while the request is read.
-    for word in ["overlap", "fingers_overlap"] {
+    // These are found while the request is read.
+    for word in ["overlap", "fingers_overlap", "hangs_over_table", "wide_yaw_tolerance", "out_of_proportion"] {
         assert!(listed.remove(word) && enumerated("ErrorCode").contains(word), "{word}");
     }
     assert_eq!(listed, matched(include_str!("../../src/plan/warning.rs"), "code"));
@@ -81,6 +81,27 @@ fn every_fault_of_a_plan_is_explained() {
     assert!(include_str!("../../src/wire/verification.rs").contains("code: \"interrupted\""));
     codes.insert("interrupted".to_owned());
     assert_eq!(words("Faults of a plan", 0), codes);
+}
+
+/// The anchors of the page's rows.
+fn anchors() -> BTreeSet<&'static str> {
+    let anchors: Vec<&str> = PAGE.split("<a id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let distinct: BTreeSet<&str> = anchors.iter().copied().collect();
+    assert_eq!(anchors.len(), distinct.len(), "no anchor is there twice");
+    distinct
+}
+
+#[test]
+fn every_row_that_is_referred_to_is_there() {
+    for (section, column, prefix) in
+        [("Problems", 1, "problem-"), ("Faults of a request", 0, ""), ("Faults of a plan", 0, "plan-")]
+    {
+        for row in rows(section) {
+            let word = row[column].trim_matches('`');
+            let anchor = format!("<a id=\"{prefix}{word}\"></a>");
+            assert!(row[column + 1].starts_with(&anchor), "the row of {word} has no {anchor}");
+        }
+    }
 }
 
 #[test]
@@ -104,7 +125,9 @@ fn the_problem_that_is_shown_is_what_is_said() {
     let told = failed(&run(&["plan", file("errors.json", &scene.to_string()).to_str().unwrap()]), 2);
     for fault in shown["errors"].as_array().unwrap() {
         let words = ["code", "pointer", "detail"].map(|name| fault[name].as_str().unwrap());
-        assert!(told.contains(&words.join("  ")), "{told}");
+        let see = fault["see"].as_str().unwrap();
+        assert!(told.contains(&format!("{} ({see})", words.join("  "))), "{told}");
+        assert!(anchors().contains(see.strip_prefix("docs/errors.md#").unwrap()), "{see}");
     }
     assert_eq!(told.lines().count(), shown["errors"].as_array().unwrap().len() + 1, "{told}");
 }

@@ -1,6 +1,8 @@
 //! Jobs in a SQLite file: what is in it after a stop, and what is said of others who have it open.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::{Arc, Mutex};
 
 use sqlx::{Connection, Row, SqliteConnection};
@@ -90,6 +92,27 @@ async fn a_second_server_on_one_file_says_so_but_not_after_a_crash() {
     let after = started(&database).await;
     assert!(!shares(&after), "{}", after.log());
     Client::of(&[&after.url]).job(&id(&job)).await;
+}
+
+/// As docs/deploy.md says, where the program is installed.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_backup_of_a_running_server_holds_every_job() {
+    let docs = include_str!("../../docs/deploy.md");
+    let command = docs.lines().find(|line| line.starts_with("sqlite3 ")).unwrap();
+    if Command::new("sqlite3").arg("--version").output().is_err() {
+        // Past the test runner, which keeps to itself what is printed in tests that pass.
+        writeln!(std::io::stderr(), "not run: a backup by sqlite3, which is not installed").unwrap();
+        return;
+    }
+    let database = Database::in_a_file();
+    let server = started(&database).await;
+    let job = Client::of(&[&server.url]).submit(&short("kept".to_owned(), 0)).await;
+    let file = file(&database);
+    let backup = file.with_file_name("backup.db");
+    let command = command.replace("/var/lib/singulate/singulate.db", file.to_str().unwrap());
+    let command = command.replace("/backup/singulate.db", backup.to_str().unwrap());
+    assert!(Command::new("bash").args(["-c", &command]).status().unwrap().success(), "{command}");
+    assert_eq!(ids(&backup).await, [id(&job)]);
 }
 
 /// Its store is open.

@@ -5,7 +5,9 @@
 mod bases;
 mod check;
 mod generated;
+mod noise;
 mod paper;
+mod quiet;
 mod raster;
 mod scene_bases;
 mod scenes;

@@ -11,6 +11,39 @@ fn verdict(draft: SceneDraft, objective: Objective) -> Verdict {
     plan(&scene, &Settings { objective, ..Settings::default() }, &Budget::unlimited()).unwrap().verdict
 }
 
+/// Three discs in a row on a table of `width` m: the outer two hold the middle one.
+fn row(width: f64, margin: f64) -> SceneDraft {
+    let mut draft = generate(&Recipe { objects: 1, ..Recipe::default() }, 1).unwrap();
+    draft.table.top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(1.0), y_max: Some(width) };
+    (draft.gripper.fingers, draft.gripper.margin) = (Some(3.0), Some(margin));
+    let disc = |(id, x): (&str, f64)| ObjectDraft {
+        id: Some(id.to_owned()),
+        x: Some(x),
+        y: Some(width / 2.0),
+        radius: Some(0.04),
+        fixed: false,
+    };
+    let apart = 0.08 + margin.max(0.01);
+    draft.objects = [("left", 0.5 - apart), ("middle", 0.5), ("right", 0.5 + apart)].map(disc).into();
+    draft.target = Some("middle".to_owned());
+    draft
+}
+
+#[test]
+fn a_place_keeps_five_millimetres_from_the_edge_whatever_the_margin_and_nothing_where_there_is_no_room() {
+    for (width, margin, edge) in [(0.5, 0.0, 5e-3), (0.5, 0.03, 5e-3), (0.082, 0.0, 0.0), (0.082, 0.03, 0.0)] {
+        let Verdict::Relocate(plan) = verdict(row(width, margin), Objective::FarFromTarget) else {
+            panic!("{width} {margin}")
+        };
+        let gap = |at: f64, side: f64| at.min(side - at) - 0.04;
+        for step in &plan.relocations {
+            let nearest = gap(step.to.x, 1.0).min(gap(step.to.y, width));
+            assert!((nearest - edge).abs() < 1e-5, "{width} {margin}: {nearest}");
+            assert!(step.gap >= margin, "{}", step.gap);
+        }
+    }
+}
+
 #[track_caller]
 fn assert_optimal(verdict: &Verdict) {
     assert!(matches!(verdict, Verdict::Relocate(plan) if plan.optimal()), "{verdict:?}");

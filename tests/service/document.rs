@@ -42,6 +42,7 @@ fn the_ranges_of_the_document_are_those_of_the_checks() {
         ("GripperBody", &["fingers"], FINGERS_RANGE),
         ("GripperBody", &["margin"], MARGIN_RANGE),
         ("GripperBody", &["yaw_tolerance"], YAW_TOLERANCE_RANGE),
+        ("SettingsBody", &["overlap_tolerance"], (0.0, RequestLimits::default().max_overlap_tolerance)),
     ];
     for (schema, fields, (min, max)) in ranges {
         for field in fields {
@@ -70,6 +71,8 @@ fn the_lengths_of_the_document_are_those_of_the_checks() {
     }
     let default = &schemas["SettingsBody"]["properties"]["time_limit_ms"]["description"];
     assert!(default.as_str().unwrap().contains(&format!("{} where absent", limits.default_time_limit.as_millis())));
+    let default = &schemas["SettingsBody"]["properties"]["overlap_tolerance"]["description"];
+    assert!(default.as_str().unwrap().contains(&format!("{} where absent", limits.scene.overlap_tolerance)));
     let grouped = |number: usize| format!("{},{:03},{:03}", number / 1_000_000, number / 1000 % 1000, number % 1000);
     assert!(COMMITTED.contains(&grouped(ServerSettings::default().max_body_bytes)));
 }

@@ -57,8 +57,12 @@ class Disc(TypedDict):
     fixed: bool
 
 
-class Limits(TypedDict):
+class TimeLimit(TypedDict):
     time_limit_ms: int
+
+
+class Limits(TimeLimit, total=False):
+    overlap_tolerance: float
 
 
 class Scene(TypedDict):
@@ -96,6 +100,8 @@ def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settin
         yaw_tolerance=settings.yaw_tolerance,
     )
     limits = Limits(time_limit_ms=settings.time_limit_ms)
+    if not math.isnan(settings.overlap_tolerance):
+        limits["overlap_tolerance"] = settings.overlap_tolerance
     return Scene(table=table, gripper=gripper, objects=objects, target=settings.target, settings=limits)
 
 

@@ -27,6 +27,8 @@ class Settings:
     margin: float = 0.0
     yaw_tolerance: float = 0.0
     time_limit_ms: int = 1000
+    # How deep detections may overlap: what perception errs by. Left unset, the service's own tolerance holds.
+    overlap_tolerance: float = math.nan
     # The height of the tool's frame where it grasps and releases.
     tool_z: float = math.nan
     # Detections older than this say nothing about the table of now. The time to plan counts too.

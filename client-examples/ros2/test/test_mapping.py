@@ -50,6 +50,12 @@ def test_the_messages_of_the_example_give_the_scene_of_the_example() -> None:
     assert (scene["target"], scene["settings"]) == ("cup", {"time_limit_ms": 1000})
 
 
+def test_a_tolerance_for_overlaps_goes_with_the_scene_where_one_is_set() -> None:
+    noisy = replace(SETTINGS, overlap_tolerance=0.005)
+    scene = to_scene(detections(), planning_scene(vase(), table()), noisy)
+    assert scene["settings"] == {"time_limit_ms": 1000, "overlap_tolerance": 0.005}
+
+
 def test_what_is_round_has_the_circle_inside_its_box_and_what_is_not_the_one_around_it() -> None:
     assert seen(detection("b", "bowl", 0.1, 0.1, 0.06, 0.08))["radius"] == pytest.approx(0.04)
     assert seen(detection("c", "carton", 0.1, 0.1, 0.06, 0.08))["radius"] == pytest.approx(0.05)

@@ -67,5 +67,5 @@ impl Parameters {
 }
 
 fn invalid(code: ErrorCode, detail: core::fmt::Arguments<'_>) -> Problem {
-    Problem::invalid(vec![ErrorItem { code, pointer: String::new(), detail: detail.to_string() }])
+    Problem::invalid(vec![ErrorItem::new(code, "", detail.to_string())])
 }

@@ -23,7 +23,7 @@ pub(super) fn key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
         (Some(text), None) => Ok(Some(text.to_owned())),
         _ => {
             let detail = format!("an Idempotency-Key is one value of 1 to {MAX_KEY_LENGTH} printable ASCII characters");
-            Err(Problem::invalid(vec![ErrorItem { code: ErrorCode::IdempotencyKey, pointer: String::new(), detail }]))
+            Err(Problem::invalid(vec![ErrorItem::new(ErrorCode::IdempotencyKey, "", detail)]))
         }
     }
 }
@@ -52,7 +52,7 @@ pub(super) fn check_callbacks(requests: &mut [JobRequest], shape: Shape, allow: 
                     Shape::One => "/callback_url".to_owned(),
                     Shape::Batch => format!("/scenes/{position}/callback_url"),
                 };
-                faults.push(ErrorItem { code: fault.code(), pointer, detail: fault.to_string() });
+                faults.push(ErrorItem::new(fault.code(), pointer, fault.to_string()));
             }
         }
     }

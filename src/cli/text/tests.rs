@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::plan::Relocation;
+use crate::plan::check::{Fault, FaultCode, Report};
 use crate::wire::{RequestLimits, read_scene};
 
 fn request() -> PlanRequest {
@@ -145,13 +146,14 @@ fn a_survey_is_one_line_an_object() {
 
 #[test]
 fn a_verification_lists_its_faults_with_steps_counted_from_one() {
-    let fault = FaultBody {
-        code: "blocked_grasp",
+    let fault = Fault {
+        code: FaultCode::GraspBlocked,
         step: Some(0),
         object: Some("plate-2".to_owned()),
         detail: "finger 1 is 3 mm inside 'vase'".to_owned(),
     };
-    let text = verification(&VerificationBody { valid: false, faults: vec![fault] });
-    assert_eq!(text, "not valid: 1 fault\n  step 1, plate-2: finger 1 is 3 mm inside 'vase' (blocked_grasp)\n");
-    assert_eq!(verification(&VerificationBody { valid: true, faults: Vec::new() }), "valid: the plan holds\n");
+    let text = |faults| verification(&VerificationBody::new(&Report { faults, ..Report::default() }));
+    let expected = "not valid: 1 fault\n  step 1, plate-2: finger 1 is 3 mm inside 'vase' (grasp_blocked)\n";
+    assert_eq!(text(vec![fault]), expected);
+    assert_eq!(text(Vec::new()), "valid: the plan holds\n");
 }

@@ -20,17 +20,17 @@ pub(super) async fn use_write_ahead_log(writers: &AnyPool) -> Result<(), Error> 
     }
 }
 
-/// Whether another process has the file open. SQLite holds a shared lock of the system's on every file that it has open, and
-/// whoever crashes holds none; so the exclusive lock can be had exactly if nobody else is there. It is given back at once.
-/// Of two that ask at the same time, at least one is told of the other.
+/// Whether another process has the file open. SQLite keeps a shared lock on each file that it has open, and the system frees
+/// the locks of a process that crashes. So the exclusive lock is granted exactly if nobody else is there; it is released at
+/// once. Of two processes that ask at the same time, at least one hears of the other.
 ///
-/// Our only connection must be the one that writes. Where the lock was refused, it is to be replaced: some versions of
-/// SQLite leave a half-taken lock behind, which keeps newcomers out.
+/// The connection that writes must be the only one of this process. If the lock was refused, the connection has to be
+/// replaced: some versions of SQLite keep a pending lock then, which shuts out newcomers.
 pub(super) async fn is_shared(writers: &AnyPool) -> Result<bool, Error> {
     let mut connection = writers.acquire().await?;
-    // The log has to be in use before: a log that is first used under the exclusive lock is never shared again.
+    // The SELECT opens the log. A log that is first opened in exclusive mode can't leave that mode.
     let mut execute = async |statements: &'static str| raw_sql(statements).execute(&mut *connection).await;
-    execute("PRAGMA busy_timeout = 0; SELECT COUNT(*) FROM sqlite_schema; PRAGMA locking_mode = EXCLUSIVE").await?;
+    execute("SELECT COUNT(*) FROM sqlite_schema; PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE").await?;
     let begun = execute("BEGIN IMMEDIATE").await;
     execute("PRAGMA locking_mode = NORMAL").await?;
     match begun {
@@ -40,18 +40,13 @@ pub(super) async fn is_shared(writers: &AnyPool) -> Result<bool, Error> {
     }
 }
 
-/// All that is in the log goes into the file.
-pub(super) async fn empty_log(writers: &AnyPool) -> Result<(), Error> {
+/// All that is in the log goes into the file. False if it can't, since somebody reads what it was before.
+pub(super) async fn empty_log(writers: &AnyPool) -> Result<bool, Error> {
     let mut connection = writers.acquire().await?;
     // Whoever reads for longer is not waited for.
     raw_sql("PRAGMA busy_timeout = 1000").execute(&mut *connection).await?;
     let row = sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").fetch_one(&mut *connection).await?;
-    match row.try_get::<i64, _>("busy")? {
-        0 => Ok(()),
-        _ => Err(Error::Protocol(
-            "another process reads the file: part of it is still in the one beside it, -wal".to_owned(),
-        )),
-    }
+    Ok(row.try_get::<i64, _>("busy")? == 0)
 }
 
 fn locked(error: &Error) -> bool {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Once};
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::migrate::MigrateError;
-use sqlx::{AnyConnection, ConnectOptions, Connection, Error};
+use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection, Error};
 use tokio_util::task::TaskTracker;
 
 use super::dialect::Dialect;
@@ -76,17 +76,11 @@ async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStor
     let pool = pool.before_acquire(|connection, _| Box::pin(async move { Ok(!connection.is_in_transaction()) }));
     let writing = "PRAGMA busy_timeout = 5000; PRAGMA synchronous = FULL";
     let reading = "PRAGMA busy_timeout = 5000; PRAGMA query_only = ON";
-    let connect = || on_connect(pool.clone().max_connections(1), writing).connect_with(options.clone());
-    let mut writers = connect().await?;
-    file::use_write_ahead_log(&writers).await?;
-    if !memory && file::is_shared(&writers).await? {
-        tracing::warn!(
-            file = path,
-            "another process has this file of jobs open; they share its jobs if it is a server"
-        );
-        writers.close().await;
-        writers = connect().await?;
-    }
+    let one = on_connect(pool.clone().max_connections(1), writing);
+    let writers = match memory {
+        true => one.connect_with(options.clone()).await?,
+        false => writers_of_file(one, options.clone(), path).await?,
+    };
     // In one transaction: of two processes that start at once, one makes the tables and the other finds them.
     let mut transaction = writers.begin_with(Dialect::Sqlite.begin()).await?;
     migrate(&mut transaction, Dialect::Sqlite).await?;
@@ -99,6 +93,18 @@ async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStor
     };
     let (dialect, settings, herald) = (Dialect::Sqlite, settings.clone(), Herald::alone());
     Ok(SqlStore { dialect, settings, writers, readers, tasks: TaskTracker::new(), herald, metrics })
+}
+
+/// The connection that writes to a file, with its log in use. It is made anew where another process has the file open.
+async fn writers_of_file(pool: AnyPoolOptions, options: AnyConnectOptions, path: &str) -> Result<AnyPool, Error> {
+    let writers = pool.clone().connect_with(options.clone()).await?;
+    file::use_write_ahead_log(&writers).await?;
+    if !file::is_shared(&writers).await? {
+        return Ok(writers);
+    }
+    tracing::warn!(file = path, "another process has this file open; if it is a server, both serve the same jobs");
+    writers.close().await;
+    pool.connect_with(options).await
 }
 
 async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {

@@ -98,15 +98,15 @@ impl SqlStore {
         answer
     }
 
-    /// SQLite empties its log into the file when the last connection is closed, and says nothing if it can't. So it is told
-    /// to before that, when nobody reads or writes any more.
-    async fn close(&self) -> Result<(), Error> {
+    /// SQLite empties its log into the file when the last connection is closed, but does not say whether it could. So it is
+    /// asked to before that, once nobody here reads or writes any more. False if it could not.
+    async fn close(&self) -> Result<bool, Error> {
         self.tasks.wait().await;
         self.readers.close().await;
-        // In memory those who read and those who write are the same.
+        // In memory, readers and writers are one pool.
         let emptied = match self.dialect {
             Dialect::Sqlite if !self.writers.is_closed() => file::empty_log(&self.writers).await,
-            _ => Ok(()),
+            _ => Ok(true),
         };
         self.writers.close().await;
         emptied
@@ -208,8 +208,14 @@ impl Store for SharedStore {
 
     async fn close(&self) -> Result<(), StoreError> {
         self.0.tasks.close();
-        let closed = timeout(CLOSING, self.0.close()).await.unwrap_or(Err(Error::PoolTimedOut));
-        closed.map_err(|error| StoreError(format!("close: {error}")))
+        match timeout(CLOSING, self.0.close()).await {
+            Ok(Ok(true)) => Ok(()),
+            Ok(Ok(false)) => {
+                Err(StoreError("another process reads its file, so part of it is in the -wal beside".to_owned()))
+            }
+            Ok(Err(error)) => Err(StoreError(format!("close: {error}"))),
+            Err(_) => Err(StoreError(format!("not closed within {} ms", CLOSING.as_millis()))),
+        }
     }
 
     fn hints(&self) -> &Hints {

@@ -1,0 +1,113 @@
+//! What objects have to do with each other, with the table's edge and with the fingers.
+
+use std::collections::HashMap;
+
+use super::fault::{Findings, Flaw, Likely, Place};
+use super::slips;
+use super::{Disc, DiscIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
+
+/// Depths that differ by no more are the same, m: overlaps are told to the micrometre, and this is half of one. So discs that
+/// touch, and those that overlap by just the tolerance, count as what their decimals say; the doubles nearest to these are off
+/// by 3e-11 m at the most (four coordinates at 100 km).
+const TOUCHING: f64 = 5e-7;
+
+/// A disc may hang over the table's edge by this share of its radius: perception errs, and many a plate stands like that. With
+/// more it is likelier that its place or its size is wrong.
+const OVERHANG: f64 = 1.0 / 3.0;
+
+/// Discs that hang over the table's edge; their centres are on it.
+pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findings) {
+    for (at, Object { disc, .. }) in objects.iter().enumerate() {
+        let (overhang, radius) = (-top.inner_gap(disc), disc.radius);
+        if overhang > OVERHANG * radius + TOUCHING {
+            warnings.add(Place::WholeObject(at), Flaw::HangsOverTable { overhang, radius });
+        }
+    }
+}
+
+/// Every overlapping pair once, at the later of the two: a fault past the tolerance, a warning up to it. Two fixed objects
+/// may overlap as they like: several discs make up one thing. A movable disc that overlaps more others than a grasp may have
+/// neighbours is refused for that, which bounds the work.
+pub(super) fn overlaps(
+    objects: &[Object],
+    index: &DiscIndex,
+    limits: &SceneLimits,
+    faults: &mut Findings,
+    warnings: &mut Findings,
+) {
+    let max = limits.max_neighbours;
+    // Per fixed object the movable ones before it that it overlaps.
+    let mut earlier: HashMap<ObjectIndex, Vec<ObjectIndex>> = HashMap::new();
+    for (at, object) in objects.iter().enumerate() {
+        let this = ObjectIndex::new(at);
+        let mut touched = if object.fixed {
+            earlier.remove(&this).unwrap_or_default()
+        } else {
+            let near = index.within(object.disc.centre, object.disc.radius);
+            near.map(|(other, _)| other).take(max + 2).collect()
+        };
+        // The index finds the object itself too.
+        if touched.len() > max + 1 && !object.fixed {
+            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: object.id.clone(), max });
+        }
+        for &later in touched.iter().filter(|other| **other > this && objects[other.get()].fixed) {
+            earlier.entry(later).or_default().push(this);
+        }
+        touched.retain(|other| *other < this);
+        touched.sort_unstable();
+        for other in touched {
+            overlap(at, &objects[other.get()], object, limits.overlap_tolerance, faults, warnings);
+        }
+        if faults.full() {
+            return;
+        }
+    }
+}
+
+/// The overlap of the object at `at` with an earlier one.
+fn overlap(
+    at: usize,
+    earlier: &Object,
+    object: &Object,
+    tolerance: f64,
+    faults: &mut Findings,
+    warnings: &mut Findings,
+) {
+    let depth = -object.disc.gap(&earlier.disc);
+    if depth <= TOUCHING {
+        return;
+    }
+    let (list, likely) = match depth > tolerance + TOUCHING {
+        true => (faults, slips::overlap(&object.disc, &earlier.disc, depth)),
+        false => (warnings, Likely::Open),
+    };
+    list.add(Place::WholeObject(at), Flaw::Overlap { other: earlier.id.clone(), depth, tolerance, likely });
+}
+
+/// Grasps with too many obstacles in reach, and fingers that overlap each other.
+pub(super) fn reach(
+    gripper: &Gripper,
+    objects: &[Object],
+    index: &DiscIndex,
+    limits: &SceneLimits,
+    faults: &mut Findings,
+    warnings: &mut Findings,
+) {
+    let half_angle_tangent = libm::tan(gripper.period() / 2.0);
+    for (at, object) in objects.iter().enumerate().filter(|(_, object)| !object.fixed) {
+        let Disc { centre, radius } = object.disc;
+        let id = || object.id.clone();
+        let reach = gripper.corner_distance(radius) + gripper.margin;
+        // The index finds the object itself too.
+        if index.within(centre, reach).take(limits.max_neighbours + 2).count() > limits.max_neighbours + 1 {
+            faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
+        }
+        if gripper.finger_width / 2.0 > radius * half_angle_tangent {
+            let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
+            warnings.add(Place::WholeObject(at), flaw);
+        }
+        if faults.full() {
+            return;
+        }
+    }
+}

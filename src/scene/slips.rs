@@ -1,0 +1,127 @@
+//! Numbers that look like a slip of their unit: degrees where radians are meant, millimetres where metres are. Such a scene
+//! holds, but mostly its answer is a deadlock that the real table has not.
+//!
+//! Between millimetres and metres lies a factor of 1000. Each threshold lies between what real scenes have and what a slip
+//! makes of them, nearer to the slip: a warning that is wrong is worse than one that is missing.
+
+use core::f64::consts::PI;
+
+use nalgebra::Point2;
+
+use super::fault::{Findings, Flaw, Likely, Place, Yardstick};
+use super::{Disc, Gripper, Object, Rectangle};
+
+/// A length of more than so many largest radii, and ...
+const LONG_TO_RADIUS: f64 = 3.0;
+/// ... as long as this, m: no gripper has fingers or errors of half a metre for things so much smaller.
+const LONG: f64 = 0.5;
+/// A margin of more than so many largest radii, whatever its length. Margins cover errors of perception and robot, some
+/// millimetres; with errors beyond the objects' size nobody grasps them.
+const MARGIN_TO_RADIUS: f64 = 10.0;
+/// A margin of more than this share of the table's shorter side.
+const MARGIN_TO_TABLE: f64 = 0.5;
+/// A clearance or finger width of more than so many largest radii, whatever its length: a gripper with 60 mm of clearance may
+/// pick up pills of 4 mm, which is 15 times.
+const FINGER_TO_RADIUS: f64 = 50.0;
+/// A clearance or finger width of more than so many longer sides of the table: a gripper may be larger than a tray.
+const FINGER_TO_TABLE: f64 = 3.0;
+/// A clearance or finger width of less than this share of the smallest radius, where ...
+const FINGER_IN_RADIUS: f64 = 1.0 / 30.0;
+/// ... that radius is so large, m. Thin fingers for large platters are not rare, but no gripper spans discs two metres wide.
+const HUGE_RADIUS: f64 = 1.0;
+/// A table whose shorter side has more than so many largest radii, and ...
+const TABLE_TO_RADIUS: f64 = 1000.0;
+/// ... is so long, m. No robot reaches over that.
+const HUGE_TABLE: f64 = 100.0;
+/// A centre further from the table than so many of its longer sides.
+const FAR_OFF: f64 = 10.0;
+/// An overlap as deep as this, m: few things on a table are as wide.
+const HUGE_OVERLAP: f64 = 1.0;
+
+/// Warn of each.
+pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warnings: &mut Findings) {
+    let (tolerance, fingers) = (gripper.yaw_tolerance, gripper.fingers);
+    if tolerance >= PI / f64::from(fingers) {
+        warnings.add(Place::Gripper("yaw_tolerance"), Flaw::WideYawTolerance { tolerance, fingers });
+    }
+    let scale = Scale::new(top, objects);
+    let lengths = [
+        (Place::Gripper("finger_width"), gripper.finger_width, scale.finger(gripper.finger_width)),
+        (Place::Gripper("clearance"), gripper.clearance, scale.finger(gripper.clearance)),
+        (Place::Gripper("margin"), gripper.margin, scale.margin(gripper.margin)),
+        (Place::WholeTable, scale.shorter(), scale.table()),
+    ];
+    for (place, length, yardstick) in lengths {
+        if let Some(yardstick) = yardstick {
+            warnings.add(place, Flaw::OutOfProportion { length, yardstick });
+        }
+    }
+}
+
+/// What lengths are compared with.
+struct Scale {
+    sides: (f64, f64),
+    smallest: f64,
+    largest: f64,
+}
+
+impl Scale {
+    fn new(top: Rectangle, objects: &[Object]) -> Self {
+        let radii = || objects.iter().map(|object| object.disc.radius);
+        let (smallest, largest) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
+        Self { sides: top.sides(), smallest, largest }
+    }
+
+    fn shorter(&self) -> f64 {
+        self.sides.0.min(self.sides.1)
+    }
+
+    fn longer(&self) -> f64 {
+        self.sides.0.max(self.sides.1)
+    }
+
+    /// What a margin is too long for.
+    fn margin(&self, margin: f64) -> Option<Yardstick> {
+        self.too_long(margin, MARGIN_TO_RADIUS, MARGIN_TO_TABLE * self.shorter())
+    }
+
+    /// What a clearance or finger width is too long or too short for.
+    fn finger(&self, length: f64) -> Option<Yardstick> {
+        let too_short = self.smallest >= HUGE_RADIUS && length < FINGER_IN_RADIUS * self.smallest;
+        let too_long = self.too_long(length, FINGER_TO_RADIUS, FINGER_TO_TABLE * self.longer());
+        too_long.or(too_short.then_some(Yardstick::SmallestRadius(self.smallest)))
+    }
+
+    fn too_long(&self, length: f64, to_radius: f64, to_table: f64) -> Option<Yardstick> {
+        if length > to_radius * self.largest || (length >= LONG && length > LONG_TO_RADIUS * self.largest) {
+            Some(Yardstick::LargestRadius(self.largest))
+        } else {
+            (length > to_table).then_some(Yardstick::Table(self.sides.0, self.sides.1))
+        }
+    }
+
+    /// What the table is too large for.
+    fn table(&self) -> Option<Yardstick> {
+        let too_large = self.shorter() >= HUGE_TABLE && self.shorter() > TABLE_TO_RADIUS * self.largest;
+        too_large.then_some(Yardstick::LargestRadius(self.largest))
+    }
+}
+
+/// Why a centre may lie beside the table.
+pub(super) fn off_table(top: Rectangle, centre: Point2<f64>) -> Likely {
+    let point = Disc { centre, radius: 0.0 };
+    let (x, y) = top.sides();
+    if top.outer_gap(&point) > FAR_OFF * x.max(y) { Likely::FrameOrUnit } else { Likely::Open }
+}
+
+/// Why two discs may overlap by so much (m), past the tolerance.
+pub(super) fn overlap(one: &Disc, other: &Disc, depth: f64) -> Likely {
+    if depth >= HUGE_OVERLAP {
+        Likely::UnitOrSeenTwice
+    } else if depth >= one.radius.min(other.radius) {
+        // The centre of one lies in the other.
+        Likely::SeenTwice
+    } else {
+        Likely::Open
+    }
+}

@@ -1,0 +1,141 @@
+//! Scenes as a camera sees them: every disc a little elsewhere, so that neighbours overlap; and things made of fixed discs
+//! that overlap.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+use singulate::budget::Budget;
+use singulate::experiments::varied;
+use singulate::plan::check::check;
+use singulate::plan::{Answer, Plan, Verdict, plan, survey};
+use singulate::scene::{Disc, Scene, SceneLimits};
+use singulate::wire::{AnswerBody, PlanRequest, RequestLimits, SceneBody, read_plan, read_scene};
+
+/// How far a centre is off, m.
+const NOISE: f64 = 3e-3;
+
+/// Centres that are off by [`NOISE`] in the directions that the seed gives.
+fn noisy(seed: u64) -> Value {
+    let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
+    let mut body = serde_json::to_value(SceneBody::new(&scene, None)).unwrap();
+    for (n, object) in (0_u32..).zip(body["objects"].as_array_mut().unwrap()) {
+        #[expect(clippy::cast_precision_loss, reason = "a small seed")]
+        let direction = 2.399_963 * f64::from(n) + seed as f64;
+        for (axis, shift) in [("x", libm::cos(direction)), ("y", libm::sin(direction))] {
+            object[axis] = json!(object[axis].as_f64().unwrap() + NOISE * shift);
+        }
+    }
+    body
+}
+
+fn with_settings(mut body: Value, settings: Value) -> Value {
+    body["settings"] = settings;
+    body
+}
+
+fn read(body: &Value) -> Result<PlanRequest, String> {
+    read_scene(body.to_string().as_bytes(), &RequestLimits::default()).map_err(|problem| problem.to_string())
+}
+
+/// The answer, once it has passed the checker as it is served.
+fn answered(request: &PlanRequest, named: &str) -> Answer {
+    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
+    let served = serde_json::to_vec(&AnswerBody::new(request, &answer)).unwrap();
+    let claim = read_plan(&served, &request.scene).unwrap();
+    assert_eq!(check(&request.scene, &claim, &Budget::unlimited()).faults, [], "{named}");
+    answer
+}
+
+/// Carries the steps out with nothing but distances: each object comes to stand the margin away from all others, so that no
+/// pair overlaps deeper than it did.
+fn keeps_apart(scene: &Scene, plan: &Plan, named: &str) {
+    let mut discs: Vec<Disc> = scene.objects().iter().map(|object| object.disc()).collect();
+    for step in &plan.relocations {
+        let at = step.object.get();
+        assert_eq!(discs[at].centre, step.from, "{named}");
+        discs[at].centre = step.to;
+        let others = discs.iter().enumerate().filter(|(other, _)| *other != at);
+        let least = others.map(|(_, other)| discs[at].gap(other)).fold(f64::INFINITY, f64::min);
+        assert!(least >= scene.gripper().margin() - 1e-9, "{named}: {least}");
+    }
+}
+
+fn verdict(answer: &Answer) -> &'static str {
+    match answer.verdict {
+        Verdict::Graspable(_) => "graspable",
+        Verdict::Relocate(_) => "relocate",
+        Verdict::Deadlock(_) => "deadlock",
+        Verdict::NoSpace(_) => "no_space",
+        Verdict::TimedOut(_) => unreachable!("the budget never ends"),
+    }
+}
+
+#[test]
+fn noise_of_three_millimetres_is_planned_for_where_the_cell_says_so() {
+    let (mut refused, mut verdicts) = (0, BTreeMap::<&str, u64>::new());
+    for seed in 0..200 {
+        let (body, named) = (noisy(seed), format!("seed {seed}"));
+        refused += usize::from(read(&body).is_err_and(|problem| problem.contains("(overlap)")));
+        for objective in ["far_from_target", "short_moves"] {
+            let settings = json!({"overlap_tolerance": 2.0 * NOISE, "objective": objective});
+            let request = read(&with_settings(body.clone(), settings)).unwrap();
+            let answer = answered(&request, &named);
+            if let Verdict::Relocate(plan) = &answer.verdict {
+                keeps_apart(&request.scene, plan, &named);
+            }
+            *verdicts.entry(verdict(&answer)).or_default() += 1;
+        }
+    }
+    assert!(refused > 50, "{refused}");
+    assert!(["graspable", "relocate", "deadlock"].iter().all(|name| verdicts[name] > 20), "{verdicts:?}");
+}
+
+#[test]
+fn noise_as_deep_as_the_service_admits_is_surveyed_and_answered_by_every_method() {
+    for seed in 0..40 {
+        let named = format!("seed {seed}");
+        for (grasp_model, search, placement) in
+            [("swept_finger", "lobs", "exact"), ("sector", "landmarks", "exact"), ("sector", "lobs", "raster")]
+        {
+            let settings = json!({"overlap_tolerance": 0.01, "grasp_model": grasp_model, "search": search,
+                "placement": placement});
+            let request = read(&with_settings(noisy(seed), settings)).unwrap();
+            plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
+            assert!(!survey(&request.scene, &Budget::unlimited()).unwrap().is_empty(), "{named}");
+        }
+    }
+}
+
+/// A rack of `count` discs behind a cup with a plate on either side.
+fn behind(count: u32, pitch: f64) -> Value {
+    let disc = |id: &str, x: f64, y: f64, radius: f64| json!({"id": id, "x": x, "y": y, "radius": radius});
+    let mut objects = vec![disc("cup", 0.4, 0.35, 0.04), disc("left", 0.3, 0.33, 0.05), disc("right", 0.5, 0.33, 0.05)];
+    for n in 0..count {
+        let mut rack = disc(&format!("rack-{n}"), 0.1 + pitch * f64::from(n), 0.46, 0.03);
+        rack["fixed"] = json!(true);
+        objects.push(rack);
+    }
+    json!({
+        "table": {"x_min": 0, "y_min": 0, "x_max": 0.8, "y_max": 0.5},
+        "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
+        "objects": objects,
+        "target": "cup"
+    })
+}
+
+#[test]
+fn a_rack_is_a_row_of_fixed_discs_that_overlap() {
+    for (count, pitch) in [(22, 0.03), (22, 0.0), (200, 0.003)] {
+        for objective in ["far_from_target", "short_moves"] {
+            let body = with_settings(behind(count, pitch), json!({"objective": objective}));
+            let request = read(&body).unwrap();
+            assert_eq!(request.warnings, []);
+            let answer = answered(&request, &format!("{count} discs {pitch} m apart"));
+            if let Verdict::Relocate(plan) = &answer.verdict {
+                keeps_apart(&request.scene, plan, objective);
+            }
+        }
+    }
+    let rack = read(&behind(22, 0.03)).unwrap();
+    assert_eq!(verdict(&answered(&rack, "a rack")), "relocate");
+}
