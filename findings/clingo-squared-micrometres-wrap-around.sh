@@ -5,7 +5,8 @@
 #
 # Seen with clingo 5.8.3, all warnings on: with positions in micrometres, (X-XX)**2+(Y-YY)**2 is computed in 32
 # bits. 50 mm gives -1794967296, 70 mm gives 605032704 instead of 4900000000. A rule "closer than 45 mm" holds for
-# discs at 50, 70 and 100 mm, and a rule "80 mm or more apart" fails at 100 mm.
+# discs at 50, 70 and 100 mm. A rule "80 mm or more apart" holds at 46.3 mm and fails at 100 mm, because the
+# 80000**2 in it wraps as well.
 #
 # Why it matters: answer set programming has no reals, so scenes are scaled to integers, and micrometres are the
 # natural scale of a robot cell. The first 46.3 mm are right, which is enough for the tests of a small scene.
@@ -59,6 +60,6 @@ for disc, true in TRUE.items():
 expect("the values are those of 32 bits", all((s - TRUE[d]) % 2**32 == 0 for d, s in squared.items()))
 expect("46.3 mm is right", squared["a"] == TRUE["a"] and "a" not in close)
 expect("50, 70 and 100 mm count as closer than 45 mm", close == {"b", "c", "d", "e"})
-expect("100 mm does not count as 80 mm or more", "e" not in apart)
+expect("46.3 mm counts as 80 mm or more, 100 mm does not", apart == {"a"})
 expect("nothing is reported", messages == [])
 PY
