@@ -41,8 +41,8 @@ CARRIAGE = (f'<body name="carriage">{Y}<geom size=".01" contype="0" conaffinity=
 
 
 def run(gantry):
-    model = mujoco.MjModel.from_xml_string(f"""
-      <mujoco><worldbody><geom name="fixture" type="box" size=".05 .05 .05" pos=".5 0 .1"/>{gantry}</worldbody></mujoco>""")
+    model = mujoco.MjModel.from_xml_string(f"""<mujoco><worldbody>
+      <geom name="fixture" type="box" size=".05 .05 .05" pos=".5 0 .1"/>{gantry}</worldbody></mujoco>""")
     limit = mink.CollisionAvoidanceLimit(model, [(["hand"], ["fixture"])], minimum_distance_from_collisions=0.005,
                                          collision_detection_distance=0.05)
     limits = [limit, mink.VelocityLimit(model, {"x": 0.5, "y": 0.5, "z": 0.5})]

@@ -55,7 +55,7 @@ far = mujoco.MjSpec()
 far.worldbody.add_body(pos=[123.45649, 0, 0]).add_geom(size=[0.1, 0, 0])
 far.compile()
 far = mujoco.MjModel.from_xml_string(far.to_xml()).body_pos[1, 0]
-print(f"a ball at 123.45649 m comes back at {far!r} m")
+print(f"a ball at 123.45649 m comes back at {far:.5f} m")
 expect("the row is free of contact before it is saved", overlaps(before) == 0)
 expect("positions move by more than a micrometre", 1e-6 < moved < 1e-5)
 expect("balls overlap in the saved scene", overlaps(after) > 0)
