@@ -265,15 +265,37 @@ impl Candidates {
 
     /// Round a large disc among thousands of crumbs there are millions of places; more than effort can try need no memory.
     fn forget_worst(&mut self) {
-        let places = self.heap.iter().filter(|entry| entry.kind == Kind::Place);
-        let mut scores: Vec<f64> = places.map(|entry| entry.score).collect();
-        if scores.len() > MANY {
-            let worst = scores.len() - MANY / 2;
-            let bound = *scores.select_nth_unstable_by(worst, f64::total_cmp).1;
-            self.heap.retain(|entry| entry.kind != Kind::Place || entry.score > bound);
+        if self.heap.iter().filter(|entry| entry.kind == Kind::Place).count() <= MANY {
+            return;
         }
+        let (mut places, curves) = self.heap.drain().partition::<Vec<_>, _>(|entry| entry.kind == Kind::Place);
+        // Among equal scores the order of places decides.
+        places.select_nth_unstable_by(MANY / 2, |a, b| b.cmp(a));
+        places.truncate(MANY / 2);
+        self.heap.extend(places.into_iter().chain(curves));
     }
 }
 
-/// So many places are cut down to the better half.
+/// More places than these are cut down to half as many, the best.
 const MANY: usize = 1 << 17;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::shadow;
+    use crate::scene::scenes::TestScene;
+
+    #[test]
+    fn of_places_of_one_score_as_many_stay_as_may() {
+        let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
+        let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
+        let wish = Wish { object, gap: 0.0, edge_gap: 0.0, objective };
+        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), wish);
+        let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
+        let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
+        let many = u32::try_from(MANY).unwrap();
+        candidates.heap.extend((0..=many).map(place).chain([curve]));
+        candidates.forget_worst();
+        assert!(candidates.heap.into_sorted_vec().into_iter().eq((0..many / 2).rev().map(place).chain([curve])));
+    }
+}

@@ -18,6 +18,8 @@ const EFFORT_PER_STEP: u32 = 10_000;
 const MAX_EXTRA: usize = 3;
 /// How many sets are tried.
 const MAX_SETS: usize = 32;
+/// The share of the time in which other sets are sought.
+const SETS_SHARE: f64 = 0.5;
 
 /// What is asked.
 pub(super) struct Question<'a> {
@@ -39,30 +41,91 @@ pub(super) fn arrange_least(
 ) -> Result<Option<Arrangement>, Interrupted> {
     let cheapest = first.order.len();
     let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
-    let mut tried: Vec<Vec<ObjectIndex>> = Vec::new();
-    let mut next = alternatives.next(budget)?;
-    let mut effort = Effort::new(MAX_EFFORT.saturating_add(for_steps(cheapest)));
-    for cost in cheapest..=cheapest + MAX_EXTRA {
-        let smaller = tried.len();
-        while tried.len() < MAX_SETS
-            && let Some(derivation) = next.take_if(|derivation| derivation.order.len() <= cost)
-        {
-            tried.push(derivation.order);
-            if let Some(found) = attempt(question, &tried[tried.len() - 1], cost, &mut effort, budget)? {
-                return Ok(Some(found));
-            }
-            next = alternatives.next(budget)?;
-        }
-        for set in &tried[..smaller] {
-            if let Some(found) = attempt(question, set, cost, &mut effort, budget)? {
-                return Ok(Some(found));
-            }
-        }
-        if effort.left() == 0 {
-            break;
-        }
+    let more = |budget: &Budget<'_>| alternatives.next(budget);
+    Coupling {
+        question,
+        budget,
+        cheapest,
+        more,
+        next: None,
+        tried: Vec::new(),
+        effort: Effort::new(MAX_EFFORT.saturating_add(for_steps(cheapest))),
     }
-    Ok(None)
+    .arrange()
+}
+
+/// Sets as they come, and how far they were tried.
+struct Coupling<'q, M> {
+    question: &'q Question<'q>,
+    budget: &'q Budget<'q>,
+    /// The size of the least set.
+    cheapest: usize,
+    /// Gives the next set, no smaller than any before. It may be asked again after it was interrupted.
+    more: M,
+    /// A set whose turn has not come.
+    next: Option<Derivation>,
+    tried: Vec<Vec<ObjectIndex>>,
+    effort: Effort,
+}
+
+/// How a round ended.
+enum Round {
+    Found(Arrangement),
+    /// There are no more sets, or the effort is spent.
+    Nothing,
+    /// The budget for sets ended.
+    Cut,
+}
+
+impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<'_, M> {
+    /// Another set may be long in coming. So half of the time is for sets and the rest for extra moves on those that are
+    /// known; if that does not take it all, there is time for more sets.
+    fn arrange(mut self) -> Result<Option<Arrangement>, Interrupted> {
+        for for_sets in [self.budget.share(SETS_SHARE), *self.budget] {
+            match self.round(&for_sets)? {
+                Round::Found(arrangement) => return Ok(Some(arrangement)),
+                Round::Nothing => return Ok(None),
+                Round::Cut => {}
+            }
+        }
+        Err(Interrupted)
+    }
+
+    /// By cost: first each new set as it is, then those that came in this round before it, with extra moves.
+    fn round(&mut self, for_sets: &Budget<'_>) -> Result<Round, Interrupted> {
+        let earlier = self.tried.len();
+        let mut cut = self.next.is_none() && self.fetch(for_sets).is_err();
+        for cost in self.cheapest..=self.cheapest + MAX_EXTRA {
+            let smaller = self.tried.len();
+            while self.tried.len() < MAX_SETS
+                && let Some(derivation) = self.next.take_if(|derivation| derivation.order.len() <= cost)
+            {
+                self.tried.push(derivation.order);
+                if let Some(found) = self.attempt(self.tried.len() - 1, cost)? {
+                    return Ok(Round::Found(found));
+                }
+                cut = self.fetch(for_sets).is_err();
+            }
+            for set in earlier..smaller {
+                if let Some(found) = self.attempt(set, cost)? {
+                    return Ok(Round::Found(found));
+                }
+            }
+            if self.effort.left() == 0 {
+                return Ok(Round::Nothing);
+            }
+        }
+        Ok(if cut { Round::Cut } else { Round::Nothing })
+    }
+
+    fn fetch(&mut self, budget: &Budget<'_>) -> Result<(), Interrupted> {
+        self.next = (self.more)(budget)?;
+        Ok(())
+    }
+
+    fn attempt(&mut self, set: usize, cost: usize) -> Result<Option<Arrangement>, Interrupted> {
+        attempt(self.question, &self.tried[set], cost, &mut self.effort, self.budget)
+    }
 }
 
 /// One set with as many extra moves as the cost allows. Places that are best by the objective may all lead nowhere where
@@ -101,4 +164,79 @@ pub(super) fn arrange_one(
 
 fn for_steps(steps: usize) -> u32 {
     EFFORT_PER_STEP.saturating_mul(u32::try_from(steps).unwrap_or(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use core::cell::Cell;
+    use core::time::Duration;
+
+    use super::*;
+    use crate::budget::Clock;
+    use crate::geometry::shadow;
+    use crate::knowledge::{complete, swept_finger_options};
+    use crate::scene::scenes::TestScene;
+
+    /// A clock that goes on by 1 ms whenever it is asked.
+    #[derive(Default)]
+    struct Ticking(Cell<u64>);
+
+    impl Clock for Ticking {
+        fn elapsed(&self) -> Duration {
+            self.0.set(self.0.get() + 1);
+            Duration::from_millis(self.0.get())
+        }
+
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    /// To grasp the cup `east` or `west` has to go, but on this table there is a place for one of them only once the other
+    /// one has been moved too. `coming` gives the sets, and `None` for one that takes all the time there is for sets.
+    fn arranged(coming: &[Option<&[usize]>]) -> Result<Option<Arrangement>, Interrupted> {
+        let scene = TestScene::new(4)
+            .table(0.135_162, 0.071_054)
+            .finger(0.013, 0.035)
+            .disc("cup", 0.065_575, 0.046_448, 0.021_03)
+            .disc("east", 0.108_18, 0.030_045, 0.021_03)
+            .disc("west", 0.022_59, 0.025_764, 0.021_03)
+            .build("cup");
+        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
+        let question = Question { scene: &scene, base: &base, model: shadow, objective: Objective::default() };
+        let clock = Ticking::default();
+        let budget = Budget::new(&clock, Duration::from_secs(100));
+        let mut coming = coming.iter();
+        let more = |budget: &Budget<'_>| match coming.next() {
+            Some(Some(set)) => {
+                Ok(Some(Derivation { order: set.iter().map(|object| ObjectIndex::new(*object)).collect() }))
+            }
+            Some(None) => {
+                while budget.check().is_ok() {}
+                Err(Interrupted)
+            }
+            None => Ok(None),
+        };
+        let effort = Effort::new(MAX_EFFORT);
+        Coupling { question: &question, budget: &budget, cheapest: 1, more, next: None, tried: Vec::new(), effort }
+            .arrange()
+    }
+
+    fn cost(arranged: Result<Option<Arrangement>, Interrupted>) -> Option<usize> {
+        arranged.unwrap().map(|arrangement| arrangement.relocations.len())
+    }
+
+    #[test]
+    fn a_set_that_does_not_come_leaves_time_for_extra_moves() {
+        assert_eq!(cost(arranged(&[Some(&[2])])), Some(2), "with one extra move");
+        assert_eq!(cost(arranged(&[Some(&[2]), None])), Some(2));
+    }
+
+    #[test]
+    fn time_that_extra_moves_leave_is_for_more_sets() {
+        // No extra move helps where nothing is to be moved.
+        assert_eq!(cost(arranged(&[Some(&[])])), None);
+        assert_eq!(cost(arranged(&[Some(&[]), None, Some(&[2, 1])])), Some(2));
+        assert_eq!(arranged(&[Some(&[]), None, None]), Err(Interrupted));
+    }
 }

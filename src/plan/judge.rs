@@ -9,7 +9,7 @@ use super::settings::{GraspModel, SearchMethod, Settings};
 use super::sought::{Sought, seek};
 use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{KnowledgeBase, relevant, swept_finger_options};
+use crate::knowledge::{KnowledgeBase, NoBase, relevant, swept_finger_options};
 use crate::paper::tangent_angles;
 use crate::scene::Scene;
 use crate::search::Derivation;
@@ -41,7 +41,7 @@ pub(super) fn judge(
     warnings.extend(exact.as_ref().and_then(|exact| disagreement(&sought, exact)));
     let opinion = if sectors {
         let base = relevant(scene, scene.target(), swept_finger_options, &budget);
-        base.map_or(Opinion::None, |base| {
+        base.map_or_else(Opinion::from, |base| {
             let sought = seek(SearchMethod::Landmarks, &base, scene.target(), &budget);
             opinion(scene, &base, sought, &budget)
         })
@@ -93,8 +93,19 @@ enum Opinion {
     Bound { bound: LowerBound, known: Derivation },
     /// Nothing frees it.
     Deadlock(Deadlock),
-    /// Time ran out, or memory.
+    /// There is no base that is not too large.
+    TooDense,
+    /// Time ran out.
     None,
+}
+
+impl From<NoBase> for Opinion {
+    fn from(why: NoBase) -> Self {
+        match why {
+            NoBase::Interrupted => Self::None,
+            NoBase::TooLarge => Self::TooDense,
+        }
+    }
 }
 
 fn opinion(scene: &Scene, base: &KnowledgeBase, sought: Sought, budget: &Budget<'_>) -> Opinion {
@@ -102,7 +113,7 @@ fn opinion(scene: &Scene, base: &KnowledgeBase, sought: Sought, budget: &Budget<
         Sought::Least(known) | Sought::Best(known) => {
             Opinion::Bound { bound: (&known).into(), known: known.derivation }
         }
-        Sought::Nothing => prove_deadlock(scene, base, budget).map_or(Opinion::None, Opinion::Deadlock),
+        Sought::Nothing => prove_deadlock(scene, base, budget).map_or_else(Opinion::from, Opinion::Deadlock),
         Sought::Sequence(_) | Sought::TooLate | Sought::TooLarge => Opinion::None,
     }
 }
@@ -113,6 +124,7 @@ fn apply(verdict: &mut Verdict, opinion: Opinion, setting: &'static str, warning
         (Verdict::Deadlock(_), Opinion::Bound { known, .. }) => {
             warnings.push(Warning::UnprovenDeadlock { enough: Some(known.order.len()), setting });
         }
+        (Verdict::Deadlock(_), Opinion::TooDense) => warnings.push(Warning::DeadlockTooDense { setting }),
         (Verdict::Deadlock(_), Opinion::None) => warnings.push(Warning::UnprovenDeadlock { enough: None, setting }),
         (Verdict::Relocate(plan), Opinion::Bound { bound, .. }) => plan.bound = Some(bound),
         (Verdict::NoSpace(rest) | Verdict::TimedOut(rest), Opinion::Bound { bound, known }) => {
@@ -120,5 +132,24 @@ fn apply(verdict: &mut Verdict, opinion: Opinion, setting: &'static str, warning
             rest.needed.get_or_insert(known.order);
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_base_that_is_too_large_is_not_called_late() {
+        let warning = |why: NoBase| {
+            let (mut verdict, mut warnings) = (Verdict::Deadlock(None), Vec::new());
+            apply(&mut verdict, why.into(), "search", &mut warnings);
+            assert_eq!(verdict, Verdict::Deadlock(None));
+            assert_eq!(warnings.iter().map(Warning::code).collect::<Vec<_>>(), ["unproven_deadlock"]);
+            warnings[0].to_string()
+        };
+        assert!(warning(NoBase::Interrupted).contains("in time"));
+        let too_large = warning(NoBase::TooLarge);
+        assert!(!too_large.contains("time") && too_large.contains("more than 1000000 members"), "{too_large}");
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::check::Fault;
+use crate::knowledge::NoBase;
 
 /// One warning.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +39,11 @@ pub enum Warning {
         /// The setting that makes the difference.
         setting: &'static str,
     },
+    /// The deadlock is not proven for the swept finger, whose knowledge base would be too large.
+    DeadlockTooDense {
+        /// The setting that makes the difference.
+        setting: &'static str,
+    },
     /// The checker, which judges by the swept finger alone, refuses a part of the plan.
     Faulty(Fault),
 }
@@ -62,7 +68,7 @@ impl Warning {
             Self::NotOptimal { .. } => "not_optimal",
             Self::SearchTooLarge => "search_too_large",
             Self::FewerSuffice { .. } => "fewer_suffice",
-            Self::UnprovenDeadlock { .. } => "unproven_deadlock",
+            Self::UnprovenDeadlock { .. } | Self::DeadlockTooDense { .. } => "unproven_deadlock",
             Self::Faulty(fault) => fault.code.name(),
         }
     }
@@ -71,7 +77,7 @@ impl Warning {
     pub fn cause(&self) -> Cause<'_> {
         match self {
             Self::TangentAngle { .. } | Self::FewerSuffice { .. } => Cause::Setting("grasp_model"),
-            Self::UnprovenDeadlock { setting, .. } => Cause::Setting(setting),
+            Self::UnprovenDeadlock { setting, .. } | Self::DeadlockTooDense { setting } => Cause::Setting(setting),
             Self::FalseDeadlock { .. } | Self::NotOptimal { .. } | Self::SearchTooLarge => Cause::Setting("search"),
             Self::Faulty(Fault { object: Some(id), .. }) => Cause::Object(id),
             Self::Faulty(_) => Cause::Request,
@@ -100,6 +106,9 @@ impl fmt::Display for Warning {
             }
             Self::UnprovenDeadlock { enough: None, .. } => {
                 write!(f, "whether this is a deadlock for the swept finger too could not be told in time")
+            }
+            Self::DeadlockTooDense { .. } => {
+                write!(f, "whether this is a deadlock for the swept finger too was not tried: {}", NoBase::TooLarge)
             }
             Self::Faulty(Fault { step: Some(step), detail, .. }) => write!(f, "step {}: {detail}", step + 1),
             Self::Faulty(fault) => write!(f, "{}", fault.detail),

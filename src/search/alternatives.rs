@@ -19,59 +19,69 @@ pub struct Alternatives<'a> {
     /// By size, then by when they were found.
     open: BinaryHeap<Reverse<(usize, usize)>>,
     found: Vec<(Restriction, Derivation)>,
-    /// The set last given out, whose class is not yet partitioned.
-    last: Option<usize>,
+    /// The class of the set last given out, as far as it is not partitioned yet.
+    class: Option<Class>,
+}
+
+/// Sets other than one that was given out: those that lack one of its objects, and hold all that come before it.
+struct Class {
+    restriction: Restriction,
+    /// The objects that are still to be held, the next one last.
+    rest: Vec<ObjectIndex>,
 }
 
 impl<'a> Alternatives<'a> {
     /// Starts with a least derivation of the target.
     pub fn new(base: &'a KnowledgeBase, target: ObjectIndex, first: Derivation) -> Self {
         let open = BinaryHeap::from([Reverse((first.order.len(), 0))]);
-        Self { base, target, open, found: vec![(Restriction::default(), first)], last: None }
+        Self { base, target, open, found: vec![(Restriction::default(), first)], class: None }
     }
 
-    /// The next one, no smaller than any before.
+    /// The next one, no smaller than any before. When the budget has ended, a later call goes on where this one was.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
     pub fn next(&mut self, budget: &Budget<'_>) -> Result<Option<Derivation>, Interrupted> {
         loop {
-            if let Some(last) = self.last.take() {
-                self.partition(last, budget)?;
-            }
-            let Some(Reverse((_, at))) = self.open.pop() else { return Ok(None) };
-            self.last = Some(at);
-            let derivation = &self.found[at].1;
-            if self.holds(derivation, budget)? {
-                return Ok(Some(derivation.clone()));
+            self.partition(budget)?;
+            let Some(&Reverse((_, at))) = self.open.peek() else { return Ok(None) };
+            let holds = self.holds(&self.found[at].1, budget)?;
+            self.open.pop();
+            let (restriction, derivation) = self.found[at].clone();
+            let rest = derivation.order.iter().rev().copied();
+            let rest = rest.filter(|object| !restriction.required.contains(object)).collect();
+            self.class = Some(Class { restriction, rest });
+            if holds {
+                return Ok(Some(derivation));
             }
         }
     }
 
-    fn partition(&mut self, at: usize, budget: &Budget<'_>) -> Result<(), Interrupted> {
-        let (mut restriction, derivation) = self.found[at].clone();
-        for object in derivation.order {
-            if restriction.required.contains(&object) {
-                continue;
-            }
-            restriction.held.push(object);
-            match least(self.base, self.target, &restriction, budget) {
+    fn partition(&mut self, budget: &Budget<'_>) -> Result<(), Interrupted> {
+        let Some(Class { restriction, rest }) = &mut self.class else { return Ok(()) };
+        while let Some(&object) = rest.last() {
+            let mut narrower = restriction.clone();
+            narrower.held.push(object);
+            match least(self.base, self.target, &narrower, budget) {
                 Outcome::Least(set) => {
                     self.open.push(Reverse((set.derivation.order.len(), self.found.len())));
-                    self.found.push((restriction.clone(), set.derivation));
+                    self.found.push((narrower, set.derivation));
                 }
                 Outcome::Underivable => {}
                 Outcome::Interrupted(_) => return Err(Interrupted),
             }
-            restriction.held.pop();
             restriction.required.push(object);
+            rest.pop();
         }
+        self.class = None;
         Ok(())
     }
 
     /// A required object that nothing in the set makes graspable can't be moved: such a set is none.
     fn holds(&self, derivation: &Derivation, budget: &Budget<'_>) -> Result<bool, Interrupted> {
-        let closure = close(self.base, |object| !derivation.order.contains(&object), budget)?;
+        let mut moved = vec![false; self.base.len()];
+        derivation.order.iter().for_each(|object| moved[object.get()] = true);
+        let closure = close(self.base, |object| !moved[object.get()], budget)?;
         Ok(derivation.order.iter().all(|&object| closure.derives(object)))
     }
 }

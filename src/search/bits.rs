@@ -26,6 +26,11 @@ impl Bits {
         bits
     }
 
+    /// Of all rows together.
+    pub(super) fn words(&self) -> usize {
+        self.data.len()
+    }
+
     pub(super) fn row(&self, row: usize) -> &[u64] {
         &self.data[row * self.words..(row + 1) * self.words]
     }

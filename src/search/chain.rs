@@ -13,6 +13,8 @@ pub(super) struct Chain<'p> {
     trail: Vec<Event>,
     /// Position in the trail up to which consequences are drawn.
     drawn: usize,
+    /// Rules looked at, and what else costs as much, since somebody paid for it.
+    work: usize,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +23,9 @@ enum Event {
     Graspable(Node),
     Moved(Node),
 }
+
+/// How many rules are looked at in the time of one step.
+const RULES_A_STEP: usize = 100;
 
 /// A point to which a chain can go back.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +42,7 @@ impl<'p> Chain<'p> {
             graspable: vec![false; nodes],
             trail: Vec::new(),
             drawn: 0,
+            work: nodes + problem.rules(),
         };
         for rule in 0..u32::try_from(problem.rules()).unwrap_or(u32::MAX) {
             let body = problem.body(rule).len();
@@ -53,6 +59,7 @@ impl<'p> Chain<'p> {
         if core::mem::replace(&mut self.allowed[node as usize], true) {
             return;
         }
+        self.work += 1;
         self.trail.push(Event::Allowed(node));
         if self.graspable[node as usize] {
             self.trail.push(Event::Moved(node));
@@ -66,6 +73,7 @@ impl<'p> Chain<'p> {
     }
 
     fn unblock(&mut self, node: Node) {
+        self.work += self.problem.condition_of(node).len();
         for &rule in self.problem.condition_of(node) {
             self.standing[rule as usize] -= 1;
             if self.standing[rule as usize] == 0 {
@@ -84,6 +92,13 @@ impl<'p> Chain<'p> {
         }
     }
 
+    /// Steps of a [`Pace`](super::pace::Pace) for what was done since this was asked last.
+    pub(super) fn steps(&mut self) -> usize {
+        let steps = self.work / RULES_A_STEP;
+        self.work %= RULES_A_STEP;
+        steps
+    }
+
     pub(super) fn mark(&self) -> Mark {
         Mark(self.trail.len())
     }
@@ -95,6 +110,7 @@ impl<'p> Chain<'p> {
                 Event::Allowed(node) => self.allowed[node as usize] = false,
                 Event::Graspable(node) => self.graspable[node as usize] = false,
                 Event::Moved(node) => {
+                    self.work += self.problem.condition_of(node).len();
                     self.problem.condition_of(node).iter().for_each(|&rule| self.standing[rule as usize] += 1);
                 }
             }

@@ -20,6 +20,7 @@ pub(super) fn greedy(problem: &Problem, pace: &mut Pace<'_>) -> Result<Vec<Node>
     let rules = u32::try_from(problem.rules()).unwrap_or(u32::MAX);
     let mut standing: Vec<usize> = (0..rules).map(|rule| problem.body(rule).len()).collect();
     let mut price = vec![0_u64; problem.rules()];
+    pace.step(1 + problem.rules() / 64)?;
     let mut open: BinaryHeap<Reverse<(u64, Node, u32)>> = (0..rules)
         .filter(|&rule| problem.body(rule).is_empty())
         .map(|rule| Reverse((0, problem.head(rule), rule)))
@@ -28,7 +29,7 @@ pub(super) fn greedy(problem: &Problem, pace: &mut Pace<'_>) -> Result<Vec<Node>
         if core::mem::replace(&mut settled[node as usize], true) {
             continue;
         }
-        pace.step(1)?;
+        pace.step(1 + problem.condition_of(node).len() / 16)?;
         support[node as usize] = Some(rule);
         if node == problem.target() {
             break;
@@ -79,7 +80,7 @@ fn keep(chain: &mut Chain<'_>, set: &[Node], kept: &mut Vec<Node>, pace: &mut Pa
     if chain.reaches_target() {
         return;
     }
-    if set.len() <= 1 || pace.step(1 + set.len() / 16).is_err() {
+    if set.len() <= 1 || pace.step(1 + set.len() / 16 + chain.steps()).is_err() {
         kept.extend(set);
         return;
     }

@@ -20,12 +20,13 @@ pub(super) fn extract(
     goal: Node,
     pace: &mut Pace<'_>,
 ) -> Result<Vec<Node>, Interrupted> {
+    pace.step(1 + problem.movable() / NODES_A_STEP + chain.steps())?;
     let start = chain.mark();
     let mut landmark = Vec::new();
     let mut frontier = Queue::new(problem.movable());
     (0..problem.target()).filter(|&node| chain.is_frontier(node)).for_each(|node| frontier.push(node));
     while let Some(node) = frontier.pop() {
-        if pace.step(1).is_err() {
+        if pace.step(1 + chain.steps()).is_err() {
             chain.undo(start);
             return Err(Interrupted);
         }
@@ -59,6 +60,9 @@ pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node)
     landmark.dedup();
     (landmark.len() > 1).then_some(landmark)
 }
+
+/// How many nodes are looked at in the time of one step.
+const NODES_A_STEP: usize = 256;
 
 /// Nodes that wait, the least first.
 struct Queue {

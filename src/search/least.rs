@@ -2,6 +2,8 @@
 
 use super::chain::Chain;
 use super::clauses::{Known, Wishes};
+use super::hitting::{Allowance, Stop};
+use super::memory::Memory;
 use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
 use super::pace::Pace;
 use super::problem::{Node, Problem};
@@ -19,6 +21,17 @@ const FIRST_TURN: (usize, u64) = (500, 50_000);
 
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
+    least_within(&Memory::default(), base, target, restriction, budget)
+}
+
+/// The same with other limits of memory.
+pub fn least_within(
+    memory: &Memory,
+    base: &KnowledgeBase,
+    target: ObjectIndex,
+    restriction: &Restriction,
+    budget: &Budget<'_>,
+) -> Outcome {
     let mut pace = Pace::new(budget);
     let Reduced { problem, necessary } = match reduce(base, target, restriction, &mut pace) {
         Ok(Some(reduced)) => reduced,
@@ -28,13 +41,18 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
     let (mut forced, mut excused) = (necessary, Vec::new());
     for object in &restriction.required {
         // What the target does not depend on is in no least set.
+        if pace.step(1 + (problem.movable() + forced.len()) / 256).is_err() {
+            return Outcome::Interrupted(None);
+        }
         let Some(node) = problem.node(*object) else { return Outcome::Underivable };
         if !forced.contains(&node) {
             forced.push(node);
             excused.push(node);
         }
     }
-    let Ok(mut search) = Search::new(&problem, forced, excused, &mut pace) else { return Outcome::Interrupted(None) };
+    let Ok(mut search) = Search::new(&problem, forced, excused, memory, &mut pace) else {
+        return Outcome::Interrupted(None);
+    };
     match search.run(&mut pace) {
         Ok(()) => Outcome::Least(search.known(&mut pace)),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut pace))),
@@ -43,6 +61,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
 
 struct Search<'p> {
     problem: &'p Problem,
+    memory: &'p Memory,
     /// Between two questions only what is `forced` may be moved.
     chain: Chain<'p>,
     /// What is in every set: required, or a landmark by itself.
@@ -62,6 +81,7 @@ impl<'p> Search<'p> {
         problem: &'p Problem,
         forced: Vec<Node>,
         excused: Vec<Node>,
+        memory: &'p Memory,
         pace: &mut Pace<'_>,
     ) -> Result<Self, Interrupted> {
         let mut chain = Chain::new(problem);
@@ -70,7 +90,7 @@ impl<'p> Search<'p> {
         let best = incumbent::derivation(&mut chain, &best, pace).unwrap_or(best);
         let bound = forced.len();
         let (landmarks, shown) = (Vec::new(), bound);
-        let mut search = Self { problem, chain, forced, excused, landmarks, best: Vec::new(), bound, shown };
+        let mut search = Self { problem, memory, chain, forced, excused, landmarks, best: Vec::new(), bound, shown };
         search.best = search.with_forced(best);
         Ok(search)
     }
@@ -83,7 +103,7 @@ impl<'p> Search<'p> {
         // So far all are disjoint.
         self.show(self.forced.len() + self.landmarks.len());
         first?;
-        self.learn_one_of_each();
+        self.learn_one_of_each(pace)?;
         // Cheap sets first: each that fails teaches more landmarks.
         let mut priced = self.landmarks.len();
         loop {
@@ -136,18 +156,19 @@ impl<'p> Search<'p> {
     fn wishes<'b>(&self, pace: &mut Pace<'b>) -> Result<Wishes<'p, 'b>, Interrupted> {
         let known =
             Known { problem: self.problem, forced: &self.forced, excused: &self.excused, landmarks: &self.landmarks };
-        Wishes::new(&known, pace)
+        Wishes::new(&known, self.memory.literals, pace)
     }
 
     /// True if that many choices are enough.
-    fn settle_by_hitting(&mut self, mut choices: usize, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+    fn settle_by_hitting(&mut self, choices: usize, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+        let mut allowance = Allowance { choices, words: self.memory.words };
         while self.best.len() > self.bound {
             pace.note(self.best.len(), self.bound);
-            match self.least_hitting_set(&mut choices, pace) {
+            match self.least_hitting_set(&mut allowance, pace) {
                 Ok(Some(hit)) => self.learn(&hit, pace)?,
                 Ok(None) => return Ok(true),
-                Err(Interrupted) if choices == 0 => return Ok(false),
-                Err(Interrupted) => return Err(Interrupted),
+                Err(Stop::Spent) => return Ok(false),
+                Err(Stop::Interrupted) => return Err(Interrupted),
             };
         }
         Ok(true)
@@ -180,36 +201,43 @@ impl<'p> Search<'p> {
     }
 
     /// A least set that meets all landmarks but those of what is forced; `None` if the best derivation is as small.
-    fn least_hitting_set(
-        &mut self,
-        choices: &mut usize,
-        pace: &mut Pace<'_>,
-    ) -> Result<Option<Vec<Node>>, Interrupted> {
+    fn least_hitting_set(&mut self, allowance: &mut Allowance, pace: &mut Pace<'_>) -> Result<Option<Vec<Node>>, Stop> {
         let forced = self.forced.len();
-        let found = hitting::least(&self.landmarks, self.best.len() - forced, choices, pace);
+        let found = hitting::least(&self.landmarks, self.best.len() - forced, allowance, pace);
         let reached = match &found {
             Ok(Some(hit)) => forced + hit.len(),
             Ok(None) => self.best.len(),
-            Err(reached) => forced + reached,
+            Err(cut) => forced + cut.bound,
         };
         self.show(reached);
-        found.map_err(|_| Interrupted)
+        found.map_err(|cut| cut.stop)
     }
 
     /// Landmarks that are seen without chaining, round what every derivation grasps.
-    fn learn_one_of_each(&mut self) {
+    fn learn_one_of_each(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+        let is_forced = self.members(&self.forced);
         for &object in self.forced.iter().chain(&[self.problem.target()]) {
-            if let Some(landmark) = landmark::one_of_each(self.problem, object, |node| self.forced.contains(&node))
+            pace.step(1 + self.problem.rules_of(object).len() / 64 + self.landmarks.len() / 64)?;
+            if let Some(landmark) = landmark::one_of_each(self.problem, object, |node| is_forced[node as usize])
                 && !self.landmarks.contains(&landmark)
             {
                 self.landmarks.push(landmark);
             }
         }
+        Ok(())
+    }
+
+    /// Per node whether it is one of these.
+    fn members(&self, nodes: &[Node]) -> Vec<bool> {
+        let mut members = vec![false; self.problem.movable() + 1];
+        nodes.iter().for_each(|&node| members[node as usize] = true);
+        members
     }
 
     /// Chain with only `candidate` and what is forced movable. While the target does not follow, learn a landmark that
     /// none of what may be moved meets, and let all its members be moved. True if anything was learnt.
     fn learn(&mut self, candidate: &[Node], pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+        pace.step(1 + self.problem.movable() / 64)?;
         let start = self.chain.mark();
         candidate.iter().for_each(|&node| self.chain.allow(node));
         let (known, forced) = (self.landmarks.len(), self.forced.len());
@@ -242,7 +270,8 @@ impl<'p> Search<'p> {
 
     /// A required object is in the set even where nothing in it makes that object graspable.
     fn with_forced(&self, mut order: Vec<Node>) -> Vec<Node> {
-        let missing: Vec<Node> = self.forced.iter().copied().filter(|node| !order.contains(node)).collect();
+        let is_there = self.members(&order);
+        let missing: Vec<Node> = self.forced.iter().copied().filter(|&node| !is_there[node as usize]).collect();
         order.extend(missing);
         order
     }

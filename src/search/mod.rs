@@ -13,6 +13,7 @@ mod hitting;
 mod incumbent;
 mod landmark;
 mod least;
+mod memory;
 mod necessary;
 mod outcome;
 mod pace;
@@ -23,5 +24,6 @@ mod reduction;
 mod tests;
 
 pub use alternatives::Alternatives;
-pub use least::least;
+pub use least::{least, least_within};
+pub use memory::Memory;
 pub use outcome::{Derivation, LeastSet, Outcome, Restriction};

@@ -40,3 +40,78 @@ impl<'a> Pace<'a> {
         self.budget.note(Incumbent { cost, lower_bound });
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use core::cell::Cell;
+    use core::time::Duration;
+
+    use super::*;
+    use crate::budget::Clock;
+    use crate::scene::ObjectIndex;
+    use crate::search::chain::Chain;
+    use crate::search::landmark::extract;
+    use crate::search::problem::Problem;
+    use crate::search::tests::base;
+    use crate::search::{Outcome, Restriction, least};
+
+    /// Counts how often it is asked.
+    struct Counting(Cell<usize>);
+
+    impl Clock for Counting {
+        fn elapsed(&self) -> Duration {
+            self.0.set(self.0.get() + 1);
+            Duration::ZERO
+        }
+
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    /// How often some work looks at its budget.
+    pub(in crate::search) fn looks(work: impl FnOnce(&Budget<'_>)) -> usize {
+        let clock = Counting(Cell::new(0));
+        work(&Budget::new(&clock, Duration::MAX));
+        clock.0.get()
+    }
+
+    #[test]
+    fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
+        // 200 objects are free, and each is asked for by `width` others, together with the last one, which never comes.
+        let extracted = |width: usize| {
+            let last = 201 + width;
+            let mut options = vec![vec![vec![last]]];
+            options.extend((0..200).map(|_| vec![vec![]]));
+            options.extend((0..width).map(|_| (1..=200).map(|free| vec![free, last]).collect()));
+            options.push(vec![]);
+            let objects = (1..options.len()).chain([0]).map(ObjectIndex::new).collect();
+            let unlimited = Budget::unlimited();
+            let problem = Problem::over(&base(&options), objects, |_| true, &mut Pace::new(&unlimited)).unwrap();
+            looks(|budget| {
+                let mut chain = Chain::new(&problem);
+                let landmark = extract(&problem, &mut chain, problem.target(), &mut Pace::new(budget));
+                assert_eq!(landmark, Ok(vec![]));
+            })
+        };
+        let (narrow, wide) = (extracted(1), extracted(1000));
+        assert!(narrow <= 6 && wide >= 20, "{narrow} {wide}");
+    }
+
+    #[test]
+    fn what_a_restriction_requires_is_counted() {
+        let options: Vec<Vec<Vec<usize>>> =
+            [vec![(1..=2000).collect()]].into_iter().chain((0..2000).map(|_| vec![vec![]])).collect();
+        let base = base(&options);
+        let solved = |required: usize| {
+            let required = (1..=required).map(ObjectIndex::new).collect();
+            let restriction = Restriction { required, ..Restriction::default() };
+            looks(|budget| {
+                let outcome = least(&base, ObjectIndex::new(0), &restriction, budget);
+                assert!(matches!(outcome, Outcome::Least(_)), "{outcome:?}");
+            })
+        };
+        let (nothing, everything) = (solved(0), solved(2000));
+        assert!(everything > nothing + 100, "{nothing} {everything}");
+    }
+}

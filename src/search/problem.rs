@@ -8,6 +8,9 @@ use crate::scene::ObjectIndex;
 /// An object of the problem; the target is numbered after all others.
 pub(super) type Node = u32;
 
+/// How many members of options are read in the time of one step.
+pub(super) const MEMBERS_A_STEP: usize = 64;
+
 /// Rules over nodes.
 #[derive(Debug)]
 pub(super) struct Problem {
@@ -62,15 +65,20 @@ impl Problem {
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for &object in &objects {
-            pace.step(1)?;
-            for option in base.options(object).filter(|option| usable(option)) {
+            let mut read = 0;
+            for option in base.options(object) {
+                read += 1 + option.len();
+                if !usable(option) {
+                    continue;
+                }
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let rule = heads.len() as u32;
                 heads.push(node_of[object.get()]);
                 members.extend(option.iter().map(|member| (rule, node_of[member.get()])));
             }
+            pace.step(1 + read / MEMBERS_A_STEP)?;
         }
-        pace.step(heads.len() / 8)?;
+        pace.step(members.len() / MEMBERS_A_STEP)?;
         Ok(Self::from_parts(objects, heads, &members))
     }
 
@@ -78,19 +86,23 @@ impl Problem {
     /// reverse, so that whatever is near the target comes late. Also the new number of each node that is left.
     pub(super) fn restricted(
         &self,
-        kept: impl Fn(u32) -> bool,
+        kept: impl Fn(u32, &mut Pace<'_>) -> Result<bool, Interrupted>,
         pace: &mut Pace<'_>,
     ) -> Result<(Self, Vec<Option<Node>>), Interrupted> {
-        let mut seen = vec![false; self.objects.len()];
+        let (mut seen, mut is_kept) = (vec![false; self.objects.len()], vec![false; self.rules()]);
         seen[self.target() as usize] = true;
         let mut order = vec![self.target()];
         let mut at = 0;
         while let Some(&node) = order.get(at) {
             at += 1;
             pace.step(1 + self.rules_of(node).len() / 8)?;
-            for &member in self.rules_of(node).iter().filter(|&&rule| kept(rule)).flat_map(|&rule| self.body(rule)) {
-                if !core::mem::replace(&mut seen[member as usize], true) {
-                    order.push(member);
+            for &rule in self.rules_of(node) {
+                is_kept[rule as usize] = kept(rule, pace)?;
+                let body = if is_kept[rule as usize] { self.body(rule) } else { &[] };
+                for &member in body {
+                    if !core::mem::replace(&mut seen[member as usize], true) {
+                        order.push(member);
+                    }
                 }
             }
         }
@@ -100,13 +112,14 @@ impl Problem {
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for (&node, head) in order.iter().zip(0..) {
             pace.step(1 + self.rules_of(node).len() / 8)?;
-            for &rule in self.rules_of(node).iter().filter(|&&rule| kept(rule)) {
+            for &rule in self.rules_of(node).iter().filter(|&&rule| is_kept[rule as usize]) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let new = heads.len() as u32;
                 heads.push(head);
                 members.extend(self.body(rule).iter().filter_map(|&member| Some((new, number[member as usize]?))));
             }
         }
+        pace.step(members.len() / MEMBERS_A_STEP)?;
         let objects = order.iter().map(|&node| self.objects[node as usize]).collect();
         Ok((Self::from_parts(objects, heads, &members), number))
     }

@@ -37,11 +37,12 @@ fn minimal(landmarks: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Vec<usize>, I
     let mut kept_by: Vec<Vec<usize>> = vec![Vec::new(); member.len()];
     let mut kept = Vec::new();
     for (at, landmark) in landmarks.iter().enumerate() {
+        pace.step(1 + landmark.len() / 64)?;
         let rivals = landmark.iter().flat_map(|&node| &kept_by[node as usize]);
         landmark.iter().for_each(|&node| member[node as usize] = true);
         let mut holds = false;
         for &rival in rivals {
-            pace.step(1)?;
+            pace.step(1 + landmarks[rival].len() / 64)?;
             holds = holds || landmarks[rival].iter().all(|&node| member[node as usize]);
         }
         landmark.iter().for_each(|&node| member[node as usize] = false);

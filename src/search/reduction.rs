@@ -4,7 +4,7 @@ use super::chain::Chain;
 use super::necessary::Necessary;
 use super::outcome::Restriction;
 use super::pace::Pace;
-use super::problem::{Node, Problem};
+use super::problem::{MEMBERS_A_STEP, Node, Problem};
 use crate::budget::Interrupted;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
@@ -28,20 +28,26 @@ pub(super) fn reduce(
     restriction: &Restriction,
     pace: &mut Pace<'_>,
 ) -> Result<Option<Reduced>, Interrupted> {
-    let held = |object: &ObjectIndex| *object == target || restriction.held.contains(object);
-    let all = reached(base, target, |option| !option.iter().any(held), pace)?;
+    pace.step(1 + (base.len() + restriction.held.len()) / 256)?;
+    let mut held = vec![false; base.len()];
+    restriction.held.iter().chain([&target]).for_each(|object| held[object.get()] = true);
+    let all = reached(base, target, |option| !option.iter().any(|object| held[object.get()]), pace)?;
     let chain = everything(&all, pace)?;
     if !chain.reaches_target() {
         return Ok(None);
     }
-    let derivable = |rule: u32| all.body(rule).iter().all(|&node| chain.is_graspable(node));
+    let derivable = |rule: u32, _: &mut Pace<'_>| Ok(all.body(rule).iter().all(|&node| chain.is_graspable(node)));
     let (all, _) = all.restricted(derivable, pace)?;
     let chain = everything(&all, pace)?;
     let order: Vec<Node> = chain.moved().chain([all.target()]).collect();
     let Some(known) = Necessary::of(&all, &order, pace)? else {
         return Ok(Some(Reduced { problem: all, necessary: Vec::new() }));
     };
-    let (problem, number) = all.restricted(|rule| !known.is_idle(&all, rule), pace)?;
+    let needed = |rule: u32, pace: &mut Pace<'_>| {
+        pace.step(all.rules_of(all.head(rule)).len() / 64)?;
+        Ok(!known.is_idle(&all, rule))
+    };
+    let (problem, number) = all.restricted(needed, pace)?;
     let necessary =
         known.of_node(all.target()).filter_map(|node| number[node]).filter(|&node| node != problem.target());
     let necessary = necessary.collect();
@@ -52,7 +58,7 @@ pub(super) fn reduce(
 fn everything<'p>(problem: &'p Problem, pace: &mut Pace<'_>) -> Result<Chain<'p>, Interrupted> {
     let mut chain = Chain::new(problem);
     for node in 0..problem.target() {
-        pace.step(1)?;
+        pace.step(1 + chain.steps())?;
         chain.allow(node);
     }
     Ok(chain)
@@ -71,12 +77,19 @@ fn reached(
     let mut at = 0;
     while let Some(&object) = objects.get(at) {
         at += 1;
-        pace.step(1)?;
-        for &member in base.options(object).filter(|option| usable(option)).flatten() {
-            if !core::mem::replace(&mut seen[member.get()], true) {
-                objects.push(member);
+        let mut read = 0;
+        for option in base.options(object) {
+            read += 1 + option.len();
+            if !usable(option) {
+                continue;
+            }
+            for &member in option {
+                if !core::mem::replace(&mut seen[member.get()], true) {
+                    objects.push(member);
+                }
             }
         }
+        pace.step(1 + read / MEMBERS_A_STEP)?;
     }
     objects.reverse();
     Problem::over(base, objects, usable, pace)

@@ -2,7 +2,7 @@
 
 use super::pace::Pace;
 use super::reduction::reduce;
-use super::{LeastSet, Outcome, Restriction, least};
+use super::{Alternatives, LeastSet, Outcome, Restriction, least};
 use crate::budget::Budget;
 use crate::knowledge::{KnowledgeBase, close};
 use crate::scene::ObjectIndex;
@@ -176,6 +176,20 @@ proptest! {
                 prop_assert!(follows(&options, 0, mask(&found.derivation.order)));
                 prop_assert!(found.landmarks.iter().all(|landmark| !follows(&options, 0, !mask(landmark))));
             }
+        }
+    }
+
+    #[test]
+    fn sets_whose_time_ends_go_on_where_they_were(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..60) {
+        let (base, target, unlimited) = (base(&options), ObjectIndex::new(0), Budget::unlimited());
+        if let Outcome::Least(first) = least(&base, target, &Restriction::default(), &unlimited) {
+            let mut whole = Alternatives::new(&base, target, first.derivation.clone());
+            let expected: Vec<_> = core::iter::from_fn(|| whole.next(&unlimited).unwrap()).take(30).collect();
+            let clock = After(core::cell::Cell::new(looks));
+            let hurried = Budget::new(&clock, core::time::Duration::MAX);
+            let mut cut = Alternatives::new(&base, target, first.derivation);
+            let next = || cut.next(&hurried).unwrap_or_else(|_| cut.next(&unlimited).unwrap());
+            prop_assert_eq!(core::iter::from_fn(next).take(30).collect::<Vec<_>>(), expected);
         }
     }
 

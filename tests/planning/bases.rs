@@ -6,7 +6,7 @@ use serde::Deserialize;
 use singulate::budget::Budget;
 use singulate::knowledge::{KnowledgeBase, close};
 use singulate::scene::ObjectIndex;
-use singulate::search::{Outcome, Restriction, least};
+use singulate::search::{Memory, Outcome, Restriction, least_within};
 
 #[derive(Deserialize)]
 struct Case {
@@ -22,8 +22,8 @@ struct Expected {
     relocations: Option<usize>,
 }
 
-#[test]
-fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
+/// Every base comes to its optimum, and each landmark holds.
+fn solve_all(memory: &Memory) {
     let cases: Vec<Case> = serde_json::from_str(include_str!("../golden/bases.json")).unwrap();
     assert_eq!(cases.len(), 84);
     for case in cases {
@@ -35,7 +35,7 @@ fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
             .map(|options| options.iter().map(|option| option.iter().map(|id| index[id.as_str()]).collect()).collect())
             .collect();
         let target = index[case.target.as_str()];
-        match least(&base, target, &Restriction::default(), &Budget::unlimited()) {
+        match least_within(memory, &base, target, &Restriction::default(), &Budget::unlimited()) {
             Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
             Outcome::Least(found) => {
                 assert_eq!(Some(found.bound), case.expected.relocations, "{}", case.name);
@@ -49,4 +49,14 @@ fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
             Outcome::Interrupted(_) => unreachable!("the budget never ends"),
         }
     }
+}
+
+#[test]
+fn every_golden_base_gets_its_optimum_and_each_landmark_holds() {
+    solve_all(&Memory::default());
+}
+
+#[test]
+fn limits_of_memory_take_no_golden_base_its_optimum() {
+    solve_all(&Memory { words: 5, literals: 5 });
 }

@@ -7,7 +7,7 @@ use crate::scene::ObjectIndex;
 
 use super::chain::Chain;
 use super::fault::{FaultCode, Faults};
-use super::hitting::least_hits;
+use super::hitting::{MOST_KEPT, least_hits};
 use super::meter::Meter;
 use super::names::Names;
 
@@ -45,7 +45,7 @@ pub(super) fn prove(
     });
     complete &= tried.is_ok();
     let (sets, width) = sound.numbered();
-    let hits = least_hits(sets, width, meter);
+    let hits = least_hits(sets, width, MOST_KEPT, meter);
     Proof { bound: hits.at_least, complete: complete && hits.exact, sound: sound.landmarks }
 }
 
@@ -116,11 +116,19 @@ impl Sound {
 
     /// True if a sound landmark is within `members`: those are sound then, as more of them are held, and prove no more.
     fn covers(&self, members: &[ObjectIndex], meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
+        meter.spend(1 + members.len() / 50)?;
         for first in members {
             let Some(candidates) = self.by_first.get(first) else { continue };
-            meter.spend(1 + candidates.len() / 8)?;
-            let within = |at: &usize| self.landmarks[*at].iter().all(|member| members.binary_search(member).is_ok());
-            if candidates.iter().any(within) {
+            let mut compared = candidates.len();
+            let within = |at: &usize| {
+                let held = |member: &ObjectIndex| members.binary_search(member).is_ok();
+                let count = self.landmarks[*at].iter().take_while(|member| held(member)).count();
+                compared += count;
+                count == self.landmarks[*at].len()
+            };
+            let covered = candidates.iter().any(within);
+            meter.spend(1 + compared / 8)?;
+            if covered {
                 return Ok(true);
             }
         }

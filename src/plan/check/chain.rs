@@ -40,6 +40,7 @@ impl<'a> Chain<'a> {
     /// True if the target gets a free yaw once everything is lifted that can be lifted, one after the other, but the
     /// target itself, the fixed objects and those that are `held`.
     pub(super) fn frees_target(&mut self, held: &[ObjectIndex], meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
+        meter.spend(1 + held.len() / 100)?;
         self.question += 1;
         self.queue.clear();
         for object in held {
@@ -55,6 +56,7 @@ impl<'a> Chain<'a> {
             } else if object == target {
                 return Ok(true);
             } else {
+                meter.spend(self.rings.watchers(object).len() / 50)?;
                 self.lift(object);
             }
         }

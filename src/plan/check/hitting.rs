@@ -2,9 +2,10 @@
 
 use crate::budget::Interrupted;
 
+use super::branch::branch;
 use super::family::{Family, Set};
 use super::meter::Meter;
-use super::shares::{divide, improve};
+use super::shares::{Worth, divide, improve};
 
 /// How many elements hit every set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,28 +16,27 @@ pub(super) struct Hits {
     pub(super) exact: bool,
 }
 
-/// Choices that may be open at once. Each is a frame on the stack; a search so deep would not end in any time.
-const MAX_DEPTH: usize = 400;
-/// Members in all sets of one component that are searched. A search over more would not end either, and each open choice
-/// holds a copy.
-const MAX_MEMBERS: usize = 20_000;
-/// Rounds in which shares are improved: first, and after each choice, where they come from before it.
+/// Rounds in which shares are improved at first.
 const FIRST_ROUNDS: usize = 100;
-const ROUNDS: usize = 12;
+/// Members of all that waits in a search, some 40 MB. Past that it takes longer, and finds the same.
+pub(super) const MOST_KEPT: usize = 4_000_000;
 
 /// The least number of elements, below `width`, that hit every one of the non-empty `sets` (each in increasing order).
 /// Where the budget ends first, components already searched count in full and the others by their disjoint sets or
-/// shares.
-pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<'_>) -> Hits {
+/// shares. A search keeps no more than about `most_kept` members.
+pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, most_kept: usize, meter: &mut Meter<'_>) -> Hits {
     let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
     divide(&mut family);
-    let bound = family.packing().max(improve(&mut family, usize::MAX, 0, meter).at_least());
+    let bound = family.packing().max(reached(improve(&mut family, usize::MAX, 0, meter)).at_least());
     let Ok(reduced) = family.reduce(meter) else { return Hits { at_least: bound, exact: false } };
     let mut hits = Hits { at_least: reduced.forced, exact: true };
-    for mut component in reduced.rest.components() {
+    let mut components = reduced.rest.components();
+    // Where time runs out, most are counted in full.
+    components.sort_by_key(Family::size);
+    for mut component in components {
         divide(&mut component);
         let mut floor = component.packing();
-        match search(component, &mut floor, meter) {
+        match search(component, &mut floor, most_kept, meter) {
             Ok(least) => hits.at_least += least,
             Err(Interrupted) => {
                 hits.at_least += floor;
@@ -49,17 +49,23 @@ pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, meter: &mut Meter<
 }
 
 /// The least number of elements for one component; `floor` rises to what is proven if that can't be found.
-fn search(mut component: Family, floor: &mut usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    let size = component.sets.iter().map(|set| set.members().len()).sum::<usize>();
+fn search(
+    mut component: Family,
+    floor: &mut usize,
+    most_kept: usize,
+    meter: &mut Meter<'_>,
+) -> Result<usize, Interrupted> {
     let known = greedy(component.clone(), meter)?;
-    *floor = (*floor).max(improve(&mut component, known, FIRST_ROUNDS, meter).at_least());
+    *floor = (*floor).max(reached(improve(&mut component, known, FIRST_ROUNDS, meter)).at_least());
     if *floor >= known {
         return Ok(known);
     }
-    if size > MAX_MEMBERS {
-        return Err(Interrupted);
-    }
-    branch(component, known, MAX_DEPTH, meter)
+    branch(&component, known, most_kept, meter)
+}
+
+/// Any shares are good for a bound.
+fn reached(worth: Result<Worth, Worth>) -> Worth {
+    worth.unwrap_or_else(|cut| cut)
 }
 
 /// Some number of elements that suffices: what can be decided is, then the one that hits most is taken, and again.
@@ -68,6 +74,7 @@ fn greedy(mut family: Family, meter: &mut Meter<'_>) -> Result<usize, Interrupte
     loop {
         let reduced = family.reduce(meter)?;
         count += reduced.forced;
+        meter.spend(reduced.rest.units())?;
         let Some(best) = most_frequent(&reduced.rest) else { return Ok(count) };
         let Some(left) = reduced.rest.after(&[best], &[]) else { return Ok(count) };
         count += 1;
@@ -76,7 +83,7 @@ fn greedy(mut family: Family, meter: &mut Meter<'_>) -> Result<usize, Interrupte
 }
 
 /// The element that hits most, pairs first of all; `None` if there is nothing to hit.
-fn most_frequent(family: &Family) -> Option<usize> {
+pub(super) fn most_frequent(family: &Family) -> Option<usize> {
     let mut weight = vec![0_usize; family.width];
     for set in &family.sets {
         let each = 8 >> (set.members().len().clamp(2, 5) - 2);
@@ -84,51 +91,6 @@ fn most_frequent(family: &Family) -> Option<usize> {
     }
     let best = (0..family.width).rev().max_by_key(|element| weight[*element])?;
     (weight[best] > 0).then_some(best)
-}
-
-/// The least number of elements that hit the family, or `limit` if it is no less.
-fn least(family: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    let reduced = family.reduce(meter)?;
-    let mut total = reduced.forced;
-    meter.spend(reduced.rest.units())?;
-    let components = reduced.rest.components();
-    let bounds: Vec<usize> = components.iter().map(Family::packing).collect();
-    let mut rest: usize = bounds.iter().sum();
-    for (component, bound) in components.into_iter().zip(bounds) {
-        if total + rest >= limit {
-            return Ok(limit);
-        }
-        rest -= bound;
-        total += branch(component, limit - total - rest, depth, meter)?;
-    }
-    Ok(total.min(limit))
-}
-
-/// Like [`least`], for a reduced component. What the shares decide is decided; else some element is taken, or refused.
-fn branch(mut component: Family, limit: usize, depth: usize, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
-    meter.spend(component.units())?;
-    let Some(depth) = depth.checked_sub(1) else { return Err(Interrupted) };
-    let worth = improve(&mut component, limit, ROUNDS, meter);
-    if worth.at_least() >= limit {
-        return Ok(limit);
-    }
-    let (refused, others): (Vec<usize>, Vec<usize>) =
-        (0..component.width).partition(|element| worth.with(*element) >= limit);
-    let taken: Vec<usize> = others.into_iter().filter(|element| worth.without(*element) >= limit).collect();
-    if !refused.is_empty() || !taken.is_empty() {
-        let (left, count) = (component.after(&taken, &refused), taken.len());
-        let (Some(left), true) = (left, count < limit) else { return Ok(limit) };
-        return Ok(count + least(left, limit - count, depth, meter)?);
-    }
-    let Some(element) = most_frequent(&component) else { return Ok(0) };
-    let mut best = limit;
-    if let Some(left) = component.after(&[element], &[]) {
-        best = best.min(1 + least(left, best - 1, depth, meter)?);
-    }
-    if let Some(left) = component.after(&[], &[element]).filter(|_| worth.at_least() < best) {
-        best = best.min(least(left, best, depth, meter)?);
-    }
-    Ok(best)
 }
 
 #[cfg(test)]
@@ -140,8 +102,12 @@ mod tests {
     use super::*;
     use crate::budget::{Budget, Unlimited};
 
+    /// The same with all memory and with none to speak of.
     fn solve(sets: &[Vec<usize>], width: usize) -> Hits {
-        least_hits(sets.to_vec(), width, &mut Meter::new(&Budget::unlimited()))
+        let solve = |most_kept| least_hits(sets.to_vec(), width, most_kept, &mut Meter::new(&Budget::unlimited()));
+        let hits = solve(MOST_KEPT);
+        assert_eq!(solve(5), hits, "what was forgotten is made anew");
+        hits
     }
 
     fn enumerate(sets: &[Vec<usize>], width: usize) -> usize {
@@ -163,7 +129,7 @@ mod tests {
             prop_assert_eq!(solve(&sets, 12), Hits { at_least: exact, exact: true });
             let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
             divide(&mut family);
-            prop_assert!(family.packing() <= exact && improve(&mut family, exact + 1, 40, &mut Meter::new(&Budget::unlimited())).at_least() <= exact);
+            prop_assert!(family.packing() <= exact && reached(improve(&mut family, exact + 1, 40, &mut Meter::new(&Budget::unlimited()))).at_least() <= exact);
         }
 
         /// Two tangles and a few links: a choice among the links leaves parts that are searched apart.
@@ -200,7 +166,7 @@ mod tests {
         let mut family = Family { sets: pairs.collect(), width: 5 };
         divide(&mut family);
         assert_eq!(
-            (family.packing(), improve(&mut family, 4, 0, &mut Meter::new(&Budget::unlimited())).at_least()),
+            (family.packing(), reached(improve(&mut family, 4, 0, &mut Meter::new(&Budget::unlimited()))).at_least()),
             (2, 3)
         );
     }
@@ -214,10 +180,28 @@ mod tests {
     }
 
     #[test]
+    fn a_component_of_more_than_twenty_thousand_members_is_searched_too() {
+        // All triples of 36 sets, each an element that hits these three: 12 elements hit all. Besides Petersen's graph, of
+        // which shares see 5 of 6 vertices; one more set keeps the two together.
+        let (mut sets, ten) = petersen(1);
+        let mut width = ten;
+        let mut tripled = vec![Vec::new(); 36];
+        for (a, b, c) in (0..36).flat_map(|a| (0..a).flat_map(move |b| (0..b).map(move |c| (a, b, c)))) {
+            [a, b, c].iter().for_each(|set| tripled[*set].push(width));
+            width += 1;
+        }
+        sets.extend(tripled);
+        sets.push(vec![0, ten]);
+        assert!(sets.iter().map(Vec::len).sum::<usize>() > 20_000);
+        let hits = least_hits(sets, width, MOST_KEPT, &mut Meter::new(&Budget::unlimited()));
+        assert_eq!(hits, Hits { at_least: 18, exact: true });
+    }
+
+    #[test]
     fn an_ended_budget_leaves_what_disjoint_sets_prove() {
         let (sets, width) = petersen(40);
         let ended = Budget::new(&Unlimited, Duration::ZERO);
-        let hits = least_hits(sets, width, &mut Meter::new(&ended));
+        let hits = least_hits(sets, width, MOST_KEPT, &mut Meter::new(&ended));
         assert_eq!(hits, Hits { at_least: 200, exact: false });
     }
 

@@ -6,11 +6,13 @@
 //! `chain` and `needed`; `hitting` and `bound` confirm the bound; `claims` compares the parts of the answer.
 
 mod bound;
+mod branch;
 mod chain;
 mod claims;
 mod family;
 mod fault;
 mod finger;
+mod fork;
 mod hitting;
 mod lock;
 mod meter;

@@ -60,6 +60,7 @@ impl Lifting<'_> {
 
     fn is_free(&mut self, object: ObjectIndex, meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
         let ring = self.rings.ring(object, meter)?;
+        meter.spend(ring.len() / 64)?;
         Ok(self.rings.is_free(&ring, |other| !self.lifted[other.get()]))
     }
 }

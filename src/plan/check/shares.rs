@@ -60,15 +60,22 @@ pub(super) fn divide(family: &mut Family) {
 }
 
 /// Move the shares towards what is worth most: a set that would be hit by several elements in demand gets less, one that
-/// would be hit by none gets more. Ends after so many `rounds`, once `limit` elements are seen to be needed, or with
-/// the budget. The shares that were worth most stay.
-pub(super) fn improve(family: &mut Family, limit: usize, rounds: usize, meter: &mut Meter<'_>) -> Worth {
+/// would be hit by none gets more. Ends after so many `rounds`, or once `limit` elements are seen to be needed. The
+/// shares that were worth most stay.
+///
+/// # Errors
+/// What the shares were worth when the budget ended.
+pub(super) fn improve(family: &mut Family, limit: usize, rounds: usize, meter: &mut Meter<'_>) -> Result<Worth, Worth> {
     let mut best = Worth::of(family);
     let mut kept: Vec<f64> = family.sets.iter().map(|set| set.share).collect();
     let (mut stride, mut since) = (1.0_f64, 0);
     let mut now = Worth::of(family);
+    let mut ended = false;
     for _ in 0..rounds {
-        let ended = best.at_least() >= limit || meter.spend(family.units()).is_err();
+        if best.at_least() >= limit {
+            break;
+        }
+        ended = meter.spend(family.units()).is_err();
         if ended || !shift(family, &now, limit, stride) {
             break;
         }
@@ -83,7 +90,7 @@ pub(super) fn improve(family: &mut Family, limit: usize, rounds: usize, meter: &
         }
     }
     family.sets.iter_mut().zip(kept).for_each(|(set, share)| set.share = share);
-    best
+    if ended { Err(best) } else { Ok(best) }
 }
 
 /// One round: a step along the slope, as long as would close the gap to `limit`. False if there is no slope.

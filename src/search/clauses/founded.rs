@@ -1,6 +1,8 @@
 //! Nothing that holds only itself up: what is moved must be graspable by something else that is moved.
 
+use core::cell::Cell;
 use core::iter;
+use std::rc::Rc;
 
 use batsat::{Lit, Theory, TheoryArg, lbool};
 
@@ -23,10 +25,19 @@ pub(super) struct Founded<'p> {
     /// What waits for each other, and whether a node is among them.
     waiting: Vec<Node>,
     waits: Vec<bool>,
+    /// Rules looked at since somebody paid for it.
+    work: Rc<Cell<usize>>,
 }
 
 impl<'p> Founded<'p> {
-    pub(super) fn new(problem: &'p Problem, nodes: Vec<Lit>, rules: Vec<Lit>, excused: &[Node]) -> Self {
+    /// What it does is counted in `work`.
+    pub(super) fn new(
+        problem: &'p Problem,
+        nodes: Vec<Lit>,
+        rules: Vec<Lit>,
+        excused: &[Node],
+        work: Rc<Cell<usize>>,
+    ) -> Self {
         let count = nodes.len();
         let mut founded = Self {
             problem,
@@ -38,6 +49,7 @@ impl<'p> Founded<'p> {
             graspable: vec![false; count],
             waiting: Vec::new(),
             waits: vec![false; count],
+            work,
         };
         excused.iter().for_each(|&node| founded.excused[node as usize] = true);
         founded
@@ -47,10 +59,15 @@ impl<'p> Founded<'p> {
         0..u32::try_from(self.rules.len()).unwrap_or(u32::MAX)
     }
 
+    fn count(&self, rules: usize) {
+        self.work.set(self.work.get() + rules);
+    }
+
     /// What can be grasped if all is moved that is not refused.
     fn chain(&mut self, solver: &TheoryArg<'_>) {
         let problem = self.problem;
         self.graspable.fill(false);
+        self.count(self.rules.len());
         let mut moved = Vec::new();
         for rule in self.rules() {
             let body = problem.body(rule).len();
@@ -60,6 +77,7 @@ impl<'p> Founded<'p> {
             }
         }
         while let Some(node) = moved.pop() {
+            self.count(problem.condition_of(node).len());
             for &rule in problem.condition_of(node) {
                 self.standing[rule as usize] -= 1;
                 if self.standing[rule as usize] == 0 && !is_false(solver, self.rules[rule as usize]) {
@@ -83,6 +101,7 @@ impl<'p> Founded<'p> {
         let mut at = 0;
         while let Some(&node) = self.waiting.get(at) {
             at += 1;
+            self.count(2 * self.problem.rules_of(node).len());
             for &rule in self.problem.rules_of(node) {
                 let body = self.problem.body(rule);
                 if body.iter().any(|&member| self.waits[member as usize]) || is_false(solver, self.rules[rule as usize])

@@ -52,7 +52,7 @@ pub(super) fn state<'p>(
     for node in (0..asked).filter(|node| !known.excused.contains(node)) {
         state_needs(known, node, &nodes, asker, pace)?;
     }
-    let founded = Founded::new(problem, nodes.clone(), rules, known.excused);
+    let founded = Founded::new(problem, nodes.clone(), rules, known.excused, asker.work());
     Ok((nodes, founded))
 }
 
@@ -86,8 +86,8 @@ fn state_needs(
     pace: &mut Pace<'_>,
 ) -> Result<(), Interrupted> {
     let mut chain = Chain::new(known.problem);
-    pace.step(1 + known.problem.rules() / 100)?;
     known.forced.iter().filter(|&&forced| forced != node).for_each(|&forced| chain.allow(forced));
+    pace.step(1 + chain.steps())?;
     while !chain.is_graspable(node) {
         let landmark = landmark::extract(known.problem, &mut chain, node, pace)?;
         landmark.iter().for_each(|&member| chain.allow(member));

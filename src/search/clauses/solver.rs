@@ -1,6 +1,7 @@
 //! The SAT solver, under our budget.
 
 use core::cell::{Cell, RefCell};
+use std::rc::Rc;
 
 use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lbool};
 
@@ -8,13 +9,13 @@ use super::founded::Founded;
 use crate::budget::Interrupted;
 use crate::search::pace::Pace;
 
-/// What all clauses may hold together, some 100 MB.
-const MAX_LITERALS: usize = 16_000_000;
 /// Learnt clauses that are kept in any case. So small a problem soon asks again for what it forgot.
 const KEPT: i32 = 5000;
-/// Steps of a [`Pace`] for one round of propagation, one more for as many literals.
+/// Steps of a [`Pace`] for one round of propagation, one more for as many literals, and for as many rules that
+/// [`Founded`] looks at.
 const STEPS: usize = 4;
 const LITERALS_A_STEP: usize = 1000;
+const RULES_A_STEP: usize = 100;
 
 /// What the solver says to some wishes.
 pub(super) enum Reply {
@@ -32,15 +33,17 @@ pub(super) struct Asker<'b> {
 }
 
 impl<'b> Asker<'b> {
-    /// No clauses yet.
-    pub(super) fn new(pace: Pace<'b>) -> Self {
+    /// No clauses yet, and that many literals in all of them at the most.
+    pub(super) fn new(max_literals: usize, pace: Pace<'b>) -> Self {
         let limits = Limits {
             pace: RefCell::new(pace),
             steps: STEPS,
+            work: Rc::default(),
             ended: Cell::new(false),
             conflicts: 0,
             last: 0,
             literals: 0,
+            max_literals,
         };
         let options = SolverOpts { min_learnts_lim: KEPT, ..SolverOpts::default() };
         Self { solver: Solver::new(options, limits) }
@@ -86,6 +89,11 @@ impl<'b> Asker<'b> {
         self.solver.value_lit(literal) == lbool::TRUE
     }
 
+    /// Where rules are counted that are looked at between two rounds of propagation.
+    pub(super) fn work(&self) -> Rc<Cell<usize>> {
+        Rc::clone(&self.solver.cb().work)
+    }
+
     /// How many clauses were learnt in all.
     pub(super) fn conflicts(&self) -> u64 {
         self.solver.cb().conflicts
@@ -103,6 +111,8 @@ struct Limits<'b> {
     pace: RefCell<Pace<'b>>,
     /// What one round costs.
     steps: usize,
+    /// Rules looked at besides.
+    work: Rc<Cell<usize>>,
     /// The budget has.
     ended: Cell<bool>,
     conflicts: u64,
@@ -110,6 +120,7 @@ struct Limits<'b> {
     last: u64,
     /// Of all clauses together.
     literals: usize,
+    max_literals: usize,
 }
 
 impl Callbacks for Limits<'_> {
@@ -124,9 +135,9 @@ impl Callbacks for Limits<'_> {
     }
 
     fn stop(&self) -> bool {
-        if self.pace.borrow_mut().step(self.steps).is_err() {
+        if self.pace.borrow_mut().step(self.steps + self.work.take() / RULES_A_STEP).is_err() {
             self.ended.set(true);
         }
-        self.ended.get() || self.conflicts >= self.last || self.literals > MAX_LITERALS
+        self.ended.get() || self.conflicts >= self.last || self.literals > self.max_literals
     }
 }

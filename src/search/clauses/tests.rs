@@ -40,7 +40,7 @@ fn by_clauses(
         }
     }
     let known = Known { problem, forced: &forced, excused: &excused, landmarks: &[] };
-    let mut wishes = Wishes::new(&known, &mut pace).ok()?;
+    let mut wishes = Wishes::new(&known, usize::MAX, &mut pace).ok()?;
     let mut best = problem.movable();
     while wishes.bound() < best {
         let (smallest, mut adopted) = (best, best);

@@ -38,15 +38,21 @@ pub(in crate::search) struct Wishes<'p, 'b> {
 pub(in crate::search) type Adopt<'f> = &'f mut dyn FnMut(&[Node]) -> usize;
 
 impl<'p, 'b> Wishes<'p, 'b> {
-    /// Everything is wished for.
+    /// Everything is wished for. The clauses hold that many literals together at the most.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
-    pub(in crate::search) fn new(known: &Known<'p, '_>, pace: &mut Pace<'b>) -> Result<Self, Interrupted> {
-        let mut asker = Asker::new(pace.another());
+    pub(in crate::search) fn new(
+        known: &Known<'p, '_>,
+        max_literals: usize,
+        pace: &mut Pace<'b>,
+    ) -> Result<Self, Interrupted> {
+        let mut asker = Asker::new(max_literals, pace.another());
         let (nodes, founded) = state(known, &mut asker, pace)?;
+        let mut is_forced = vec![false; nodes.len()];
+        known.forced.iter().for_each(|&node| is_forced[node as usize] = true);
         let wishes = (0..known.problem.target())
-            .filter(|node| !known.forced.contains(node))
+            .filter(|&node| !is_forced[node as usize])
             .map(|node| Wish { literal: !nodes[node as usize], counted: None })
             .collect();
         Ok(Self { asker, founded, nodes, wishes, counters: Vec::new(), bound: known.forced.len() })

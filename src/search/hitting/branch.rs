@@ -1,156 +1,84 @@
-//! Depth-first search: bound, decide, choose.
+//! What is seen of a question without asking another one: it is decided, it falls into parts, or it needs a choice.
 
+use super::fork::{Choice, Fork, Parts};
 use super::instance::{Decided, Instance};
-use super::prices::{raise, share};
+use super::prices::{Valuation, raise};
 use super::reduce::reduce;
-use crate::budget::Interrupted;
+use super::{Found, Stop};
 use crate::search::pace::Pace;
-use crate::search::problem::Node;
 
-/// Rounds for the prices of a part that begins without any, and of one that has its parent's.
-const FIRST_ROUNDS: usize = 100;
+/// Rounds for the prices of a part, which come from the part before it.
 const ROUNDS: usize = 12;
-/// Choices that may be open at once. Each is a frame on the stack; a search so deep would not end in any time.
-const MAX_DEPTH: usize = 1000;
 
-/// A least set that meets every landmark, if it has fewer than `limit` members. Where the budget ends first, or the
-/// `choices` are spent (they are counted down): `Err` with the bound reached.
-pub(in crate::search) fn least(
-    landmarks: &[Vec<Node>],
-    limit: usize,
-    choices: &mut usize,
-    pace: &mut Pace<'_>,
-) -> Result<Option<Vec<Node>>, usize> {
-    let Ok(root) = Root::new(landmarks, limit, pace) else { return Err(0) };
-    let bound = root.bound();
-    let Some(rest) = limit.checked_sub(root.decided.count()).filter(|rest| *rest > 0) else { return Ok(None) };
-    let found =
-        Search { choices, pace }.each(root.parts, &root.bounds, rest, MAX_DEPTH).map_err(|Interrupted| bound)?;
-    Ok(found.map(|rest| {
-        let mut found = root.decided.complete(rest);
-        found.sort_unstable();
-        found
-    }))
+/// Asks for a least solution of the instance with fewer than `limit` elements.
+pub(super) struct Question {
+    pub(super) instance: Instance,
+    pub(super) limit: usize,
+    /// One part, in which nothing can be decided but by prices.
+    pub(super) reduced: bool,
 }
 
-/// No set of fewer members meets every landmark; found without any choice.
+/// What is seen of a question.
+pub(super) enum Sight {
+    Answer(Found),
+    /// Others have to be answered first.
+    Fork(Box<Fork>),
+}
+
+/// Decide what needs no choice, and bound the rest.
 ///
 /// # Errors
-/// [`Interrupted`] when the budget ends.
-pub(in crate::search) fn bound(
-    landmarks: &[Vec<Node>],
-    limit: usize,
-    pace: &mut Pace<'_>,
-) -> Result<usize, Interrupted> {
-    Ok(Root::new(landmarks, limit, pace)?.bound())
-}
-
-/// Where a search begins.
-struct Root {
-    decided: Decided,
-    parts: Vec<Instance>,
-    /// Per part how many elements it needs at least.
-    bounds: Vec<usize>,
-}
-
-impl Root {
-    fn new(landmarks: &[Vec<Node>], limit: usize, pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
-        let (mut instance, mut decided) = (Instance::new(landmarks), Decided::default());
-        // No landmark is empty, so each can be met.
-        reduce(&mut instance, &mut decided, pace)?;
-        let mut parts = instance.parts();
-        let mut price = |part: &mut Instance| {
-            share(part);
-            raise(part, limit, FIRST_ROUNDS, pace).bound()
-        };
-        let bounds = parts.iter_mut().map(&mut price).collect();
-        Ok(Self { decided, parts, bounds })
-    }
-
-    fn bound(&self) -> usize {
-        self.decided.count() + self.bounds.iter().sum::<usize>()
-    }
-}
-
-struct Search<'s, 'b> {
-    choices: &'s mut usize,
-    pace: &'s mut Pace<'b>,
-}
-
-/// `None` if every solution has at least as many elements as the limit.
-type Found = Result<Option<Vec<Node>>, Interrupted>;
-
-impl Search<'_, '_> {
-    /// A least solution if it has fewer than `limit` elements.
-    fn below(&mut self, mut instance: Instance, limit: usize, depth: usize) -> Found {
-        let mut decided = Decided::default();
-        if !reduce(&mut instance, &mut decided, self.pace)? || decided.count() >= limit {
-            return Ok(None);
-        }
-        let limit = limit - decided.count();
-        let mut parts = instance.parts();
-        drop(instance);
-        let rest = if parts.len() == 1 {
-            self.choose(parts.swap_remove(0), limit, depth)?
-        } else {
-            parts.sort_by_key(Instance::sets);
-            // What one element meets would have been decided.
-            let bounds = vec![2; parts.len()];
-            self.each(parts, &bounds, limit, depth)?
-        };
-        Ok(rest.map(|rest| decided.complete(rest)))
-    }
-
-    /// Like [`Self::below`], for parts that have nothing to do with each other and need so many elements at least.
-    fn each(&mut self, parts: Vec<Instance>, bounds: &[usize], limit: usize, depth: usize) -> Found {
-        let mut all = Vec::new();
-        let mut later: usize = bounds.iter().sum();
-        for (part, bound) in parts.into_iter().zip(bounds) {
-            later -= bound;
-            let Some(limit) = limit.checked_sub(all.len() + later).filter(|limit| limit > bound) else {
-                return Ok(None);
-            };
-            let Some(found) = self.choose(part, limit, depth)? else { return Ok(None) };
-            all.extend(found);
-        }
-        Ok(Some(all))
-    }
-
-    /// Like [`Self::below`], for one reduced part: some element is taken, or it is not.
-    fn choose(&mut self, mut part: Instance, limit: usize, depth: usize) -> Found {
-        let depth = depth.checked_sub(1).ok_or(Interrupted)?;
-        *self.choices = self.choices.checked_sub(1).ok_or(Interrupted)?;
-        self.pace.step(1)?;
-        let worth = raise(&mut part, limit, ROUNDS, self.pace);
-        if worth.bound() >= limit {
-            return Ok(None);
-        }
-        let mut decided = Decided::default();
-        let mut fixed = false;
-        for element in 0..part.elements() {
-            if worth.bound_if(element, true) >= limit {
-                part.exclude(element);
-                fixed = true;
-            } else if worth.bound_if(element, false) >= limit {
-                part.take(element, &mut decided);
-                fixed = true;
+/// [`Stop`] when the budget ends or the `choices`, which are counted down, are spent.
+pub(super) fn look(question: Question, choices: &mut usize, pace: &mut Pace<'_>) -> Result<Sight, Stop> {
+    let Question { mut instance, limit, mut reduced } = question;
+    let mut decided = Decided::default();
+    loop {
+        pace.step(instance.steps())?;
+        if !core::mem::take(&mut reduced) {
+            if !reduce(&mut instance, &mut decided, pace)? || decided.count() >= limit {
+                return Ok(Sight::Answer(None));
             }
+            let mut parts = instance.parts();
+            if parts.len() != 1 {
+                parts.sort_by_key(Instance::sets);
+                // What one element meets would have been decided.
+                let bounds = vec![2; parts.len()];
+                return Ok(Sight::Fork(Box::new(Fork::Parts(Parts::new(decided, parts, bounds, limit)))));
+            }
+            instance = parts.swap_remove(0);
         }
-        if fixed {
-            let Some(limit) = limit.checked_sub(decided.count()) else { return Ok(None) };
-            return Ok(self.below(part, limit, depth)?.map(|rest| decided.complete(rest)));
+        *choices = choices.checked_sub(1).ok_or(Stop::Spent)?;
+        let rest = limit - decided.count();
+        let worth = raise(&mut instance, rest, ROUNDS, pace).map_err(|_| Stop::Interrupted)?;
+        if worth.bound() >= rest {
+            return Ok(Sight::Answer(None));
         }
-        let Some(element) = most_wanted(&part) else { return Ok(Some(Vec::new())) };
-        let mut with = part.clone();
-        with.take(element, &mut decided);
-        let with = self.below(with, limit - 1, depth)?.map(|rest| decided.complete(rest));
-        let limit = with.as_ref().map_or(limit, Vec::len);
-        if limit <= worth.bound() {
-            return Ok(with);
+        if fix(&mut instance, &worth, rest, &mut decided) {
+            if decided.count() >= limit {
+                return Ok(Sight::Answer(None));
+            }
+            continue;
         }
-        part.exclude(element);
-        Ok(self.below(part, limit, depth)?.or(with))
+        let Some(element) = most_wanted(&instance) else {
+            return Ok(Sight::Answer(Some(decided.complete(Vec::new()))));
+        };
+        return Ok(Sight::Fork(Box::new(Fork::Choice(Choice::new(decided, instance, element, worth.bound(), limit)))));
     }
+}
+
+/// Leave out, and take, what a solution with fewer than `limit` elements must. True if there is anything.
+fn fix(instance: &mut Instance, worth: &Valuation, limit: usize, decided: &mut Decided) -> bool {
+    let mut fixed = false;
+    for element in 0..instance.elements() {
+        if worth.bound_if(element, true) >= limit {
+            instance.exclude(element);
+            fixed = true;
+        } else if worth.bound_if(element, false) >= limit {
+            instance.take(element, decided);
+            fixed = true;
+        }
+    }
+    fixed
 }
 
 /// The element that meets most of what is open, small sets first of all; `None` if nothing is.

@@ -12,8 +12,9 @@ use crate::search::problem::Node;
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub(in crate::search) fn greedy(landmarks: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Vec<Node>, Interrupted> {
-    let (mut instance, mut decided) = (Instance::new(landmarks), Decided::default());
+    let (mut instance, mut decided) = (Instance::read(landmarks, pace)?, Decided::default());
     while reduce(&mut instance, &mut decided, pace)? {
+        pace.step(instance.steps())?;
         let Some(element) = most_wanted(&instance) else { break };
         instance.take(element, &mut decided);
     }

@@ -1,6 +1,8 @@
 //! An instance as bits, read both ways, and the few changes of which everything else is made.
 
+use crate::budget::Interrupted;
 use crate::search::bits::Bits;
+use crate::search::pace::Pace;
 use crate::search::problem::Node;
 
 /// Sets to be met by as few elements as can be.
@@ -55,7 +57,17 @@ impl Decided {
 
 impl Instance {
     /// All sets open, everything to be looked at. Members need no order.
-    pub(super) fn new(sets: &[Vec<Node>]) -> Self {
+    ///
+    /// # Errors
+    /// [`Interrupted`] when the budget ends.
+    pub(super) fn read(sets: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
+        pace.step(1 + sets.iter().map(Vec::len).sum::<usize>() / 32)?;
+        let instance = Self::new(sets);
+        pace.step(instance.steps())?;
+        Ok(instance)
+    }
+
+    fn new(sets: &[Vec<Node>]) -> Self {
         let mut labels: Vec<Node> = sets.iter().flatten().copied().collect();
         labels.sort_unstable();
         labels.dedup();
@@ -87,6 +99,20 @@ impl Instance {
     /// Some of them met already.
     pub(super) fn sets(&self) -> usize {
         self.prices.len()
+    }
+
+    pub(super) fn label(&self, element: usize) -> Node {
+        self.labels[element]
+    }
+
+    /// How much memory it takes, in words.
+    pub(super) fn words(&self) -> usize {
+        self.members.words() + self.met.words() + 2 * self.sets() + 2 * self.elements()
+    }
+
+    /// Steps of a pace for one look at all rows: to copy it, to part it, to choose.
+    pub(super) fn steps(&self) -> usize {
+        1 + self.words() / 512
     }
 
     pub(super) fn members(&self) -> &Bits {
@@ -171,10 +197,9 @@ impl Instance {
                     }
                     seen.set(0, element);
                     elements.push(element);
-                    for other in self.met.ones(element).filter(|&other| left.has(0, other)) {
-                        sets.push(other);
-                    }
-                    sets[at..].iter().for_each(|&other| left.clear(0, other));
+                    let known = sets.len();
+                    sets.extend(self.met.ones(element).filter(|&other| left.has(0, other)));
+                    sets[known..].iter().for_each(|&other| left.clear(0, other));
                 }
             }
             sets.sort_unstable();

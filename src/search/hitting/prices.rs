@@ -38,8 +38,16 @@ fn whole(total: f64) -> usize {
 }
 
 /// Raise the prices of an instance whose sets are all open, in so many rounds, or until they show that `limit` elements
-/// are needed, or the budget ends: any prices are good for a bound.
-pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize, pace: &mut Pace<'_>) -> Valuation {
+/// are needed.
+///
+/// # Errors
+/// What the prices show that were reached when the budget ended: any prices are good for a bound.
+pub(super) fn raise(
+    instance: &mut Instance,
+    limit: usize,
+    rounds: usize,
+    pace: &mut Pace<'_>,
+) -> Result<Valuation, Valuation> {
     let (first, flat) = flat_members(instance);
     let sets = instance.sets();
     let members = |set: usize| &flat[first[set]..first[set + 1]];
@@ -58,8 +66,11 @@ pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize, pace: 
             best.loads.clone_from(&loads);
             instance.prices.clone_from(&prices);
         }
-        if best.bound() >= limit || pace.step(1 + flat.len() / 256).is_err() {
+        if best.bound() >= limit {
             break;
+        }
+        if pace.step(1 + flat.len() / 256).is_err() {
+            return Err(best);
         }
         if stale > 4 {
             stride *= 0.5;
@@ -78,7 +89,7 @@ pub(super) fn raise(instance: &mut Instance, limit: usize, rounds: usize, pace: 
         let step = stride * (limit as f64 - total) / norm;
         prices.iter_mut().zip(&gradient).for_each(|(price, slope)| *price = (*price + step * slope).max(0.0));
     }
-    best
+    Ok(best)
 }
 
 /// Prices to begin with: each set pays its share of its most frequent element.

@@ -11,43 +11,51 @@ use crate::search::pace::Pace;
 /// some set has no member left.
 pub(super) fn reduce(instance: &mut Instance, decided: &mut Decided, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
     loop {
-        pace.step(1)?;
-        if let Some(set) = instance.shrunk_sets.next(0, 0) {
+        let words = if let Some(set) = instance.shrunk_sets.next(0, 0) {
             instance.shrunk_sets.clear(0, set);
-            if instance.is_open(set) && !settle_set(instance, set, decided) {
-                return Ok(false);
+            if !instance.is_open(set) {
+                continue;
             }
+            let Some(words) = settle_set(instance, set, decided) else { return Ok(false) };
+            words
         } else if let Some(element) = instance.shrunk_elements.next(0, 0) {
             instance.shrunk_elements.clear(0, element);
-            settle_element(instance, element, decided);
+            settle_element(instance, element, decided)
         } else {
             return Ok(true);
-        }
+        };
+        pace.step(1 + words / WORDS_A_STEP)?;
     }
 }
 
-fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> bool {
+/// How many words of rows are read in the time of one step.
+const WORDS_A_STEP: usize = 512;
+
+/// Gives the words that were read, or `None` where no member is left.
+fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> Option<usize> {
     let mut elements = instance.members().ones(set);
-    let Some(first) = elements.next() else { return false };
+    let first = elements.next()?;
     let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.met().row(first));
-    let mut single = true;
+    let mut rows = 1;
     for element in elements {
-        single = false;
+        rows += 1;
         common.iter_mut().zip(instance.met().row(element)).for_each(|(word, other)| *word &= other);
     }
-    if single {
+    let words = rows * common.len();
+    if rows == 1 {
         instance.take(first, decided);
-        return true;
+        return Some(words);
     }
     // What meets this set meets all that hold it.
     common[set / 64] &= !(1 << (set % 64));
     for_each_one(&common, |larger| instance.meet(larger));
-    true
+    Some(words)
 }
 
-fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided) {
+/// Gives the words that were read.
+fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided) -> usize {
     let mut sets = instance.met().ones(element);
-    let Some(first) = sets.next() else { return };
+    let Some(first) = sets.next() else { return 0 };
     let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.members().row(first));
     let mut count = 1;
     let mut second = first;
@@ -65,6 +73,7 @@ fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided
             instance.fold(element, kept, other, decided);
         }
     }
+    count * common.len()
 }
 
 fn for_each_one(words: &[u64], mut act: impl FnMut(usize)) {

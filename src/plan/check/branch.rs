@@ -1,0 +1,184 @@
+//! Branch and bound over one component, the open questions in a list rather than on the stack.
+//!
+//! A search is as deep as it has to be. The families that wait take memory: past the limit those of the oldest questions
+//! are forgotten, and made anew from the component should their turn come.
+
+use crate::budget::Interrupted;
+
+use super::family::{Family, Reduced};
+use super::fork::{Fork, Next};
+use super::hitting::most_frequent;
+use super::meter::Meter;
+use super::shares::improve;
+
+/// Rounds in which shares are improved after each choice: they come from before it.
+const ROUNDS: usize = 12;
+
+/// How many elements hit the family, if these are fewer than the limit.
+struct Question {
+    family: Family,
+    limit: usize,
+    /// One component from which nothing can be dropped.
+    reduced: bool,
+}
+
+/// What is seen of a question at once.
+enum Sight {
+    /// The least number of elements, or the limit if it is no less.
+    Answer(usize),
+    /// Others come first.
+    Fork(Fork),
+}
+
+/// What can be decided is: by what the family looks like, and by the shares.
+fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted> {
+    let Question { mut family, limit, mut reduced } = question;
+    let mut counted = 0;
+    loop {
+        if !core::mem::take(&mut reduced) {
+            let Reduced { forced, rest } = family.reduce(meter)?;
+            counted += forced;
+            meter.spend(rest.units())?;
+            let mut components = rest.components();
+            if components.len() != 1 {
+                return Ok(Sight::Fork(Fork::components(components, counted, limit)));
+            }
+            family = components.swap_remove(0);
+            if counted + family.packing() >= limit {
+                return Ok(Sight::Answer(limit));
+            }
+        }
+        meter.spend(family.units())?;
+        let left = limit - counted;
+        let worth = improve(&mut family, left, ROUNDS, meter).map_err(|_| Interrupted)?;
+        if worth.at_least() >= left {
+            return Ok(Sight::Answer(limit));
+        }
+        let (refused, others): (Vec<usize>, Vec<usize>) =
+            (0..family.width).partition(|element| worth.with(*element) >= left);
+        let taken: Vec<usize> = others.into_iter().filter(|element| worth.without(*element) >= left).collect();
+        if refused.is_empty() && taken.is_empty() {
+            return Ok(match most_frequent(&family) {
+                Some(element) => Sight::Fork(Fork::choice(family, element, worth.at_least(), counted, limit)),
+                None => Sight::Answer(counted),
+            });
+        }
+        counted += taken.len();
+        match family.after(&taken, &refused) {
+            Some(after) if counted < limit => family = after,
+            _ => return Ok(Sight::Answer(limit)),
+        }
+    }
+}
+
+/// A search for the least number of elements.
+struct Search<'s, 'b> {
+    /// To begin again with.
+    component: &'s Family,
+    /// Members of the families of all that waits, but for the last one's.
+    most_kept: usize,
+    meter: &'s mut Meter<'b>,
+    /// Each waits for the one after it.
+    open: Vec<Fork>,
+    /// Members of their families.
+    kept: usize,
+    /// So many of them, the oldest, have no family left.
+    forgotten: usize,
+}
+
+/// The least number of elements that hit a reduced component, or `limit` if it is no less. What waits keeps no more than
+/// `most_kept` members, and the last one its own.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub(super) fn branch(
+    component: &Family,
+    limit: usize,
+    most_kept: usize,
+    meter: &mut Meter<'_>,
+) -> Result<usize, Interrupted> {
+    Search { component, most_kept, meter, open: Vec::new(), kept: 0, forgotten: 0 }.run(limit)
+}
+
+impl Search<'_, '_> {
+    fn run(&mut self, limit: usize) -> Result<usize, Interrupted> {
+        let mut next = match look(self.first(limit), self.meter)? {
+            Sight::Answer(least) => return Ok(least),
+            Sight::Fork(fork) => self.wait(fork),
+        };
+        loop {
+            next = match next {
+                Next::Ask { limit } => match look(self.question(limit)?, self.meter)? {
+                    Sight::Answer(least) => self.last().next(least),
+                    Sight::Fork(fork) => self.wait(fork),
+                },
+                Next::Answer(least) => {
+                    let answered = self.open.pop().expect("a question that waits");
+                    self.kept -= answered.size;
+                    self.forgotten = self.forgotten.min(self.open.len());
+                    if self.open.is_empty() {
+                        return Ok(least);
+                    }
+                    self.last().next(least)
+                }
+            };
+        }
+    }
+
+    fn first(&self, limit: usize) -> Question {
+        Question { family: self.component.clone(), limit, reduced: true }
+    }
+
+    fn last(&mut self) -> &mut Fork {
+        self.open.last_mut().expect("a question that waits")
+    }
+
+    fn wait(&mut self, fork: Fork) -> Next {
+        self.kept += fork.size;
+        self.open.push(fork);
+        while self.kept > self.most_kept && self.forgotten + 1 < self.open.len() {
+            let oldest = &mut self.open[self.forgotten];
+            self.kept -= oldest.size;
+            oldest.forget();
+            self.forgotten += 1;
+        }
+        debug_assert!(self.kept - self.last().size <= self.most_kept, "the oldest were forgotten");
+        self.last().begin()
+    }
+
+    fn question(&mut self, limit: usize) -> Result<Question, Interrupted> {
+        if self.forgotten == self.open.len() {
+            self.recall()?;
+        }
+        let fork = self.last();
+        let (before, reduced) = (fork.size, fork.is_reduced());
+        let family = fork.family().expect("not forgotten");
+        let given_back = before - fork.size;
+        self.kept -= given_back;
+        Ok(Question { family, limit, reduced })
+    }
+
+    /// Make the families of the last question anew: ask all before it once more, with what is known now.
+    fn recall(&mut self) -> Result<(), Interrupted> {
+        let mut question = self.first(self.open[0].limit);
+        let last = self.open.len() - 1;
+        for at in 0..last {
+            let limit = self.open[at + 1].limit;
+            let fork = &mut self.open[at];
+            fork.recall(again(question, self.meter)?);
+            question = Question { family: fork.family().expect("just made"), limit, reduced: fork.is_reduced() };
+            fork.forget();
+        }
+        self.open[last].recall(again(question, self.meter)?);
+        (self.kept, self.forgotten) = (self.open[last].size, last);
+        Ok(())
+    }
+}
+
+/// A question that forked once forks again.
+fn again(question: Question, meter: &mut Meter<'_>) -> Result<Fork, Interrupted> {
+    match look(question, meter)? {
+        Sight::Fork(fork) => Ok(fork),
+        Sight::Answer(_) => unreachable!("the same question forks again"),
+    }
+}
