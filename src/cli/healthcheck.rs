@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// How much of an answer is read: a problem document has some hundred bytes.
 const MAX_ANSWER: usize = 4096;
 
-/// Why nobody may listen where the settings say.
+/// Why perhaps nobody listens where the settings say.
 const ELSEWHERE: &str = "; a service that was started with --listen or --config is asked with the same flag";
 
 /// The arguments of `healthcheck`.

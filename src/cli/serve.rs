@@ -46,7 +46,7 @@ impl Serve {
     }
 }
 
-/// The place is taken first, so that one which is taken already is told at once. But nobody is let in, and nothing says
+/// The place is taken first, so that one where somebody listens already is told at once. But nobody is let in, and nothing says
 /// that there is a service, before there is one.
 async fn serve(mut config: Config) -> Result<(), Failure> {
     let cannot_listen = |error| cannot_listen(config.listen, &error);

@@ -21,7 +21,7 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// The worker begins. A job that was claimed before is resumed: its worker was lost, or handed it back.
+    /// The worker begins. A job that was claimed before is resumed: its worker was lost, or handed it back, or never heard of the claim.
     pub(super) fn begin(claimed: &Claimed, scene_id: Option<String>) -> Self {
         let Claimed { claim: Claim { id: job, fence }, owner, attempt, created_at, .. } = claimed;
         let age_ms = milliseconds(Timestamp::now().since(*created_at));

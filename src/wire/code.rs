@@ -43,7 +43,7 @@ pub enum ErrorCode {
     FingersOverlap,
     /// An object hangs over the table's edge. Only ever a warning.
     HangsOverTable,
-    /// A yaw tolerance that every obstacle in reach exceeds; degrees for radians? Only ever a warning.
+    /// A yaw tolerance with which any obstacle in reach blocks every yaw; degrees for radians? Only ever a warning.
     WideYawTolerance,
     /// A length that does not go with the rest of the scene; millimetres for metres? Only ever a warning.
     OutOfProportion,

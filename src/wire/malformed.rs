@@ -4,14 +4,13 @@ use core::fmt;
 
 use super::code::ErrorCode;
 use super::problem::{ErrorItem, Problem, ProblemKind};
+use super::reader::MAX_FAULTS;
 use super::walk::{NoNumber, Slip, walk};
 
 /// What some editors put before a text in UTF-8; no part of JSON.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// How a text begins that gzip has compressed.
 const GZIP: &[u8] = b"\x1f\x8b";
-/// The longest id that is shown, characters: that of an object.
-const MAX_SHOWN_ID: usize = 128;
 
 /// The problem of a body that the JSON library does not read, for this reason.
 pub(super) fn malformed(body: &[u8], error: &serde_json::Error) -> Problem {
@@ -38,6 +37,7 @@ fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
     let mut faults: Vec<ErrorItem> =
         found.no_numbers.iter().map(|no_number| of_no_number(no_number, places.at(no_number.at))).collect();
     faults.extend(found.slip.map(|(slip, at)| no_json("", format_args!("{}", sentence(&slip, places.at(at))))));
+    faults.truncate(MAX_FAULTS);
     if !faults.is_empty() {
         return faults;
     }
@@ -57,8 +57,7 @@ fn no_json(pointer: &str, what: fmt::Arguments<'_>) -> ErrorItem {
 
 fn of_no_number(no_number: &NoNumber, line: Place) -> ErrorItem {
     let NoNumber { word, pointer, id, .. } = no_number;
-    let shown = id.as_ref().filter(|id| id.chars().count() <= MAX_SHOWN_ID);
-    let object = shown.map(|id| format!(" of object '{id}'")).unwrap_or_default();
+    let object = id.as_ref().map(|id| format!(" of object '{id}'")).unwrap_or_default();
     let place = if pointer.is_empty() { String::new() } else { format!(", in {pointer}{object}") };
     no_json(pointer, format_args!("{word} stands at {line}{place}; JSON has only finite numbers"))
 }

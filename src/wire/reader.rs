@@ -25,6 +25,15 @@ impl<'a> Path<'a> {
     pub(super) fn item(&'a self, position: usize) -> Self {
         Self::Item(self, position)
     }
+
+    /// Bytes of the names in it.
+    pub(super) fn named(&self) -> usize {
+        match self {
+            Self::Root => 0,
+            Self::Field(parent, name) => parent.named() + name.len(),
+            Self::Item(parent, _) => parent.named(),
+        }
+    }
 }
 
 impl fmt::Display for Path<'_> {

@@ -8,11 +8,14 @@ use std::collections::HashSet;
 use serde_json::Value;
 
 use super::reader::{MAX_FAULTS, Path};
+use crate::scene::MAX_ID_LENGTH;
 
 /// How deep values may be nested; the JSON library allows as much.
 const MAX_DEPTH: usize = 128;
 /// The longest piece of a body that is shown, characters.
 const MAX_SHOWN: usize = 40;
+/// The longest names that a pointer may hold together, bytes. Each fault has a pointer, and nobody's names are as long.
+const MAX_NAMED: usize = 1000;
 /// The values that are words.
 const WORDS: [&str; 3] = ["true", "false", "null"];
 /// How programs write what is no finite number, in small letters.
@@ -35,7 +38,7 @@ pub(super) struct NoNumber {
     pub(super) word: String,
     pub(super) at: usize,
     pub(super) pointer: String,
-    /// The `id` of the innermost object around it that has one.
+    /// The `id` of the innermost object around it that has one, unless it is longer than ids may be.
     pub(super) id: Option<String>,
 }
 
@@ -96,6 +99,11 @@ fn fields(value: &Value) -> usize {
         Value::Array(items) => items.iter().map(fields).sum(),
         _ => 0,
     }
+}
+
+/// The pointer; that of the whole body where the names in it are too long.
+fn pointer(path: &Path<'_>) -> String {
+    if path.named() > MAX_NAMED { String::new() } else { path.to_string() }
 }
 
 struct Walker<'t> {
@@ -181,12 +189,12 @@ impl Walker<'_> {
             self.at += 1;
             let field = path.field(&name);
             if names.contains(&name) && self.found.repeated.len() < MAX_FAULTS {
-                let pointer = field.to_string();
-                self.found.repeated.push(Repeated { name: name.clone(), at, pointer });
+                let shown = name.chars().take(MAX_SHOWN).collect();
+                self.found.repeated.push(Repeated { name: shown, at, pointer: pointer(&field) });
             }
             let text = self.value(&field, depth + 1)?;
             if name == "id" {
-                *id = text;
+                *id = text.filter(|text| text.chars().nth(MAX_ID_LENGTH).is_none());
             }
             names.insert(name);
             comma = self.comma(b'}')?;
@@ -260,7 +268,7 @@ impl Walker<'_> {
             return Err(Some(Slip::Word(word)));
         }
         if self.found.no_numbers.len() < MAX_FAULTS {
-            self.found.no_numbers.push(NoNumber { word, at, pointer: path.to_string(), id: None });
+            self.found.no_numbers.push(NoNumber { word, at, pointer: pointer(path), id: None });
         }
         Ok(())
     }

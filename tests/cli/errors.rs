@@ -78,7 +78,7 @@ fn every_warning_is_explained() {
 fn every_fault_of_a_plan_is_explained() {
     let mut codes = matched(include_str!("../../src/plan/check/fault.rs"), "name");
     // No code of the checker: it says so by a field of its own.
-    assert!(include_str!("../../src/wire/verification.rs").contains("code: \"interrupted\""));
+    assert!(include_str!("../../src/wire/verification.rs").contains("of_answer(\"interrupted\""));
     codes.insert("interrupted".to_owned());
     assert_eq!(words("Faults of a plan", 0), codes);
 }

@@ -19,7 +19,7 @@ fn refusing_limit(flag: Option<&str>, variable: Option<&str>, in_file: Option<&s
     }
     let output = command.output().unwrap();
     let errors = String::from_utf8(output.stderr).unwrap();
-    errors.split("the limit of ").nth(1).map(|rest| rest.trim().to_owned())
+    errors.split("the limit of ").nth(1).and_then(|rest| rest.split_whitespace().next()).map(str::to_owned)
 }
 
 #[test]

@@ -106,10 +106,13 @@ fn noise_as_deep_as_the_service_admits_is_surveyed_and_answered_by_every_method(
     }
 }
 
-/// A rack of `count` discs behind a cup with a plate on either side.
+/// A rack of `count` discs behind a cup with a plate on either side and one in front.
 fn behind(count: u32, pitch: f64) -> Value {
     let disc = |id: &str, x: f64, y: f64, radius: f64| json!({"id": id, "x": x, "y": y, "radius": radius});
-    let mut objects = vec![disc("cup", 0.4, 0.35, 0.04), disc("left", 0.3, 0.33, 0.05), disc("right", 0.5, 0.33, 0.05)];
+    let plates =
+        [("left", 0.3, 0.33), ("right", 0.5, 0.33), ("front", 0.4, 0.25)].map(|(id, x, y)| disc(id, x, y, 0.05));
+    let mut objects = vec![disc("cup", 0.4, 0.35, 0.04)];
+    objects.extend(plates);
     for n in 0..count {
         let mut rack = disc(&format!("rack-{n}"), 0.1 + pitch * f64::from(n), 0.46, 0.03);
         rack["fixed"] = json!(true);

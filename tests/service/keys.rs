@@ -136,7 +136,7 @@ async fn without_a_key_no_operation_is_reached_but_the_open_ones() {
         reply.is_problem(401, "unauthorized");
         assert_eq!(reply.header("www-authenticate"), "Bearer realm=\"singulate\"");
     }
-    assert_eq!(open, ["/livez", "/openapi.json", "/readyz"]);
+    assert_eq!(open, ["/livez", "/readyz", "/openapi.json"]);
     assert_eq!(guarded.host.get("/docs/").await.status, 200);
     assert_eq!(guarded.ask("HEAD", "/version", &[], None).await.status, 401);
     guarded.ask("GET", "/v1/plans", &[], None).await.is_problem(405, "method_not_allowed");

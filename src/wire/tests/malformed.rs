@@ -150,3 +150,19 @@ fn jobs_and_checks_refuse_a_field_that_is_there_twice_too() {
     let verify = format!("{{\"scene\": {SCENE}, \"plan\": {plan}}}");
     has_faults(&read_verify(verify.as_bytes(), &limits).unwrap_err(), &[("repeated_field", "/plan/target_grasp/yaw")]);
 }
+
+#[test]
+fn long_names_and_ids_make_no_long_answer() {
+    let (name, thousand) = ("a".repeat(40_000), vec!["NaN"; 1001].join(","));
+    let repeated = vec![r#""a":0"#; 1001].join(",");
+    for body in [
+        format!(r#"{{"{name}":[{thousand}]}}"#),
+        format!(r#"{{"{name}":{{{repeated}}}}}"#),
+        format!(r#"{{"id":"{name}","objects":[{thousand}]}}"#),
+        format!(r#"{{"{name}":0,"{name}":0}}"#),
+    ] {
+        let problem = refused(body.as_bytes());
+        let length = serde_json::to_vec(&problem).unwrap().len();
+        assert!(length < 500_000 && problem.errors().len() <= 1000, "{length} {}", problem.errors().len());
+    }
+}
