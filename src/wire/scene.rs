@@ -157,7 +157,7 @@ pub struct SettingsBody {
     pub time_limit_ms: Option<u32>,
     /// How deep two discs may overlap and still pass as perception noise, m. 0.001 where absent, at most 0.01 unless the
     /// operator admits more.
-    #[schema(minimum = 0, maximum = 1000, example = 0.003)]
+    #[schema(minimum = 0, maximum = 0.01, example = 0.003)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap_tolerance: Option<f64>,
 }
