@@ -64,9 +64,18 @@ impl Server {
         let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
         connections.serve_until(shutdown).await;
         drain(&app, connections, &background).await;
-        if let Err(error) = app.store.close().await {
-            tracing::warn!(%error, "the store of jobs was not closed in order; a copy of a SQLite file needs the -wal beside it");
-        }
+        close(&app).await;
+    }
+
+    /// End without having served: the store of jobs is closed in order.
+    pub async fn close(self) {
+        close(&self.app).await;
+    }
+}
+
+async fn close(app: &App) {
+    if let Err(error) = app.store.close().await {
+        tracing::warn!(%error, "the store of jobs was not closed in order; a copy of a SQLite file needs the -wal beside it");
     }
 }
 

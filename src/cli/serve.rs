@@ -59,10 +59,17 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let (greeting, threads) = (greeting(listen, &config.server), config.server.threads);
     let server = Server::open(config.server, Engine::default(), shutdown.as_mut()).await.map_err(broken)?;
     let Some(server) = server else { return Ok(()) };
-    let listener = place.listen(BACKLOG).map_err(cannot_listen)?;
-    tracing::info!(%listen, threads, "serving");
-    output::print(&greeting)?;
-    server.serve(listener, shutdown).await;
+    let begun = place.listen(BACKLOG).map_err(cannot_listen).and_then(|listener| {
+        tracing::info!(%listen, threads, "serving");
+        output::print(&greeting).map(|()| listener)
+    });
+    match begun {
+        Ok(listener) => server.serve(listener, shutdown).await,
+        Err(failure) => {
+            server.close().await;
+            return Err(failure);
+        }
+    }
     Ok(())
 }
 

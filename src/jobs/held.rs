@@ -143,7 +143,7 @@ mod tests {
     use crate::jobs::{Cancellation, JobId, JobSettings, NewJob, Owner, open};
     use crate::metrics::Metrics;
 
-    /// Whoever heard of something only when the lease is renewed would hear of it after 20 s.
+    /// A renewal is due after 20 s: what is heard within the patience was not heard by renewing.
     const LEASE: Duration = Duration::from_secs(60);
     const PATIENCE: Duration = Duration::from_secs(15);
 

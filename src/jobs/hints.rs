@@ -30,12 +30,12 @@ pub struct Watcher {
 }
 
 impl Hints {
-    /// Whoever watches the job looks again.
+    /// The clients that watch the job look at it again.
     pub fn changed(&self, id: JobId) {
         wake(&self.watched, id);
     }
 
-    /// Whoever runs the job asks whether it is still to be run: it was cancelled, or its lease has ended.
+    /// The worker of the job asks whether it is still to be run: it was cancelled, or its lease has ended.
     pub fn recalled(&self, id: JobId) {
         wake(&self.held, id);
     }
@@ -74,7 +74,8 @@ impl Watcher {
         Self { watched: Arc::clone(list), id, notify: Arc::clone(notify) }
     }
 
-    /// Done once there was a reason to look at the job since this was called; a look at the job goes between the call and the waiting.
+    /// Done once there has been a reason to look at the job since this was called; a look at the job goes between the call
+    /// and the waiting.
     pub fn changed(&self) -> impl Future<Output = ()> + use<> {
         let mut notified = Box::pin(Arc::clone(&self.notify).notified_owned());
         notified.as_mut().enable();
@@ -121,6 +122,7 @@ mod tests {
         drop((second, holder));
         assert!(lock(&hints.watched).is_empty() && lock(&hints.held).is_empty());
     }
+
     #[tokio::test]
     async fn a_worker_hears_of_recalls_alone() {
         let hints = Hints::default();

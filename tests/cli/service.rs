@@ -118,6 +118,18 @@ fn a_place_that_can_not_be_had_names_the_flag_and_the_address() {
 }
 
 #[test]
+fn a_service_that_can_not_say_where_it_listens_leaves_one_file() {
+    let jobs = file("unheard.db", "");
+    let url = format!("sqlite:{}", jobs.display());
+    let mut command =
+        singulate(&["serve", "--listen", "127.0.0.1:0", "--jobs-url", &url, "--log", "warn", "--insecure"]);
+    let full = std::fs::File::create("/dev/full").unwrap();
+    let output = command.stdout(full).stderr(Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
+    assert!(failed(&output, 1).starts_with("stdout: "));
+    assert!(!jobs.with_extension("db-wal").exists() && jobs.metadata().unwrap().len() > 0);
+}
+
+#[test]
 fn a_service_says_where_it_listens_only_once_it_does() {
     // Without a store: nothing was promised.
     let refused = run(&["serve", "--listen", "127.0.0.1:0", "--jobs-url", "sqlite:/nowhere/jobs.db"]);

@@ -99,3 +99,51 @@ pub(super) async fn insist<F: Future<Output = Result<(), Error>>>(time: Duration
         pause.pass().await;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::future::ready;
+
+    use tokio::task::yield_now;
+
+    use super::*;
+
+    const NO_TIME: Duration = Duration::ZERO;
+
+    #[tokio::test]
+    async fn a_caller_who_gives_up_decides() {
+        let (tasks, decision) = (TaskTracker::new(), Decision::default());
+        let own = decision.clone();
+        let task = async move {
+            while own.open().is_ok() {
+                yield_now().await;
+            }
+            own.commit()
+        };
+        let undo = |()| async { panic!("nothing was committed") };
+        assert!(answer(&tasks, (NO_TIME, &decision), task, undo).await.is_err());
+        assert!(decision.commit().is_err());
+        tasks.close();
+        tasks.wait().await;
+    }
+
+    #[tokio::test]
+    async fn a_commit_that_has_begun_is_waited_for() {
+        let (tasks, decision) = (TaskTracker::new(), Decision::default());
+        decision.commit().unwrap();
+        let task = async {
+            yield_now().await;
+            Ok(7)
+        };
+        let undo = |_| async { panic!("it was heard of") };
+        assert_eq!(answer(&tasks, (NO_TIME, &decision), task, undo).await.unwrap().unwrap(), 7);
+    }
+
+    #[tokio::test]
+    async fn nothing_begins_once_the_store_is_closed() {
+        let tasks = TaskTracker::new();
+        tasks.close();
+        let answer = answer(&tasks, (NO_TIME, &Decision::default()), ready(Ok(())), |()| ready(())).await;
+        assert!(matches!(answer, Ok(Err(Error::PoolClosed))));
+    }
+}

@@ -50,7 +50,7 @@ pub(super) struct SqlStore {
 /// The store as everybody has it, the tasks that write among them.
 pub(super) struct SharedStore(pub(super) Arc<SqlStore>);
 
-/// One write: all that is asked of `$change` happens, or nothing does. What `$undo` gets nobody has heard of.
+/// One write: all that is asked of `$change` happens, or nothing does. `$undo` gets an answer that nobody has heard.
 macro_rules! change {
     ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
         change!($store, $operation, |$change| $work, |_| async {})
