@@ -46,6 +46,8 @@ const CLIENTS: [usize; 2] = [1, 8];
 /// Each row repeats its requests for so long, and no more often than that.
 const ROW: Duration = Duration::from_millis(1500);
 const MAX_ROUNDS: u128 = 10;
+/// So many rows may be measured a second time.
+const MAX_AGAIN: usize = 2;
 /// A name, a scene, and one of the paper's methods where it is to be planned by that.
 type Method = Option<(&'static str, &'static str)>;
 type Case = (&'static str, fn() -> SceneDraft, Method);
@@ -65,51 +67,111 @@ const SCENES: [Case; 10] = [
 fn main() -> ExitCode {
     let address = serve();
     let timer = Timer::start();
-    let mut worst = Duration::ZERO;
     println!(
         "{:<24} {:>9} {:>9} {:>7} {:>8} {:>8}  answers",
         "scene", "limit ms", "at once", "count", "p99 ms", "worst"
     );
+    let mut answers = Judge::new(&timer, GRACE);
     for (name, draft, method) in SCENES {
         let scene = cases::scene(draft());
         println!("{name}: reading the body alone takes {:.1} ms", ms(reading(&scene, method)));
         for limit in LIMITS_MS {
+            let request = post("/v1/plans", &body(&scene, method, limit));
             for clients in CLIENTS {
-                let row = Row::measure(
-                    address,
-                    &post("/v1/plans", &body(&scene, method, limit)),
-                    clients,
-                    Duration::from_millis(limit),
-                );
-                println!("{name:<24} {limit:>9} {clients:>9} {row}");
-                worst = worst.max(row.worst());
+                answers.judge(|| {
+                    let row = Row::measure(address, &request, clients, Duration::from_millis(limit));
+                    println!("{name:<24} {limit:>9} {clients:>9} {row}");
+                    row.late
+                });
             }
         }
     }
-    let ended = early_ends();
-    let p99 = timer.stop();
-    println!("worst {:.1} ms; the timer's p99 {:.1} ms; at most 50 ms and that", ms(worst), ms(p99));
-    println!("worst early end {:.1} ms; at most 20 ms and that", ms(ended));
-    if worst <= GRACE + p99 && ended <= END_GRACE + p99 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    let mut ends = Judge::new(&timer, END_GRACE);
+    early_ends(&mut ends);
+    println!("the machine's own lateness: p99 {:.1} ms", ms(timer.p99()));
+    println!("answers: {answers}");
+    println!("early ends: {ends}");
+    if answers.holds() && ends.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The longest time to an early end.
-fn early_ends() -> Duration {
+/// Something that should have ended by one moment, and ended at another.
+#[derive(Clone, Copy)]
+struct Late {
+    due: Instant,
+    end: Instant,
+}
+
+impl Late {
+    fn by(&self) -> Duration {
+        self.end.saturating_duration_since(self.due)
+    }
+}
+
+/// Compares rows with what they are allowed: the grace, and the machine's own lateness at that very time.
+struct Judge<'t> {
+    timer: &'t Timer,
+    grace: Duration,
+    worst: Duration,
+    again: usize,
+    failed: bool,
+}
+
+impl<'t> Judge<'t> {
+    fn new(timer: &'t Timer, grace: Duration) -> Self {
+        Self { timer, grace, worst: Duration::ZERO, again: 0, failed: false }
+    }
+
+    /// A row beyond that is measured a second time: a hiccup of a shared machine does not come twice at the same place, a
+    /// fault of ours does.
+    fn judge(&mut self, mut measure: impl FnMut() -> Vec<Late>) {
+        let first = self.excess(&measure());
+        let worst = if first > self.grace {
+            println!("^ {:.1} ms late beyond the machine's own; again:", ms(first));
+            self.again += 1;
+            self.excess(&measure())
+        } else {
+            first
+        };
+        self.failed |= worst > self.grace;
+        self.worst = self.worst.max(worst);
+    }
+
+    fn excess(&self, row: &[Late]) -> Duration {
+        let own = |late: &Late| self.timer.during(late.due, late.end);
+        row.iter().map(|late| late.by().saturating_sub(own(late))).max().unwrap_or_default()
+    }
+
+    fn holds(&self) -> bool {
+        !self.failed && self.again <= MAX_AGAIN
+    }
+}
+
+impl core::fmt::Display for Judge<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { grace, worst, again, .. } = *self;
+        write!(f, "worst {:.1} ms beyond the machine's own lateness; at most {:.0} ms; ", ms(worst), ms(grace))?;
+        write!(f, "{again} of the rows measured twice, at most {MAX_AGAIN}")
+    }
+}
+
+fn early_ends(judge: &mut Judge<'_>) {
     let runtime = tokio::runtime::Runtime::new().expect("threads");
-    let mut worst = Duration::ZERO;
     println!("{:<24} {:>11} {:>7} {:>9} {:>8}", "scene", "end", "count", "median ms", "worst");
     for (name, draft, method) in SCENES {
         let body = body(&cases::scene(draft()), method, 60_000);
         let request = Arc::new(read_scene(&body, &RequestLimits::default()).expect("sound"));
         for (end, words) in [(End::HangUp, "hang-up"), (End::BestSoFar, "best so far")] {
-            let taken = ends::ends(&runtime, &request, end);
-            let Some(&last) = taken.last() else { continue };
-            let median = taken[taken.len() / 2];
-            println!("{name:<24} {words:>11} {:>7} {:>9.1} {:>8.1}", taken.len(), ms(median), ms(last));
-            worst = worst.max(last);
+            judge.judge(|| {
+                let taken = ends::ends(&runtime, &request, end).into_iter().map(|(due, end)| Late { due, end });
+                let taken: Vec<Late> = taken.collect();
+                if let Some(last) = taken.last() {
+                    let (count, median) = (taken.len(), taken[taken.len() / 2].by());
+                    println!("{name:<24} {words:>11} {count:>7} {:>9.1} {:>8.1}", ms(median), ms(last.by()));
+                }
+                taken
+            });
         }
     }
-    worst
 }
 
 fn ms(duration: Duration) -> f64 {
@@ -149,7 +211,8 @@ fn body(scene: &Scene, method: Method, limit: u64) -> Vec<u8> {
 
 /// The answers to one kind of request.
 struct Row {
-    lateness: Vec<Duration>,
+    /// The latest last.
+    late: Vec<Late>,
     words: BTreeMap<String, usize>,
 }
 
@@ -160,43 +223,40 @@ impl Row {
             let mut connection = Client::connect(address);
             let round = |_| {
                 together.wait();
-                ask(&mut connection, request)
+                ask(&mut connection, request, limit)
             };
             (0..rounds.min(MAX_ROUNDS)).map(round).collect::<Vec<_>>()
         };
-        let answers: Vec<(Duration, String)> = thread::scope(|scope| {
+        let answers: Vec<(Late, String)> = thread::scope(|scope| {
             let clients: Vec<_> = (0..clients).map(|_| scope.spawn(client)).collect();
             clients.into_iter().flat_map(|client| client.join().expect("an answer")).collect()
         });
-        let mut row = Self { lateness: Vec::new(), words: BTreeMap::new() };
-        for (taken, word) in answers {
-            row.lateness.push(taken.saturating_sub(limit));
+        let mut row = Self { late: Vec::new(), words: BTreeMap::new() };
+        for (late, word) in answers {
+            row.late.push(late);
             *row.words.entry(word).or_default() += 1;
         }
-        row.lateness.sort_unstable();
+        row.late.sort_unstable_by_key(Late::by);
         row
-    }
-
-    fn worst(&self) -> Duration {
-        self.lateness.last().copied().unwrap_or_default()
     }
 }
 
 impl core::fmt::Display for Row {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let (count, p99, worst) = (self.lateness.len(), ms(p99(&self.lateness)), ms(self.worst()));
-        write!(f, "{count:>7} {p99:>8.1} {worst:>8.1} ")?;
+        let by: Vec<Duration> = self.late.iter().map(Late::by).collect();
+        let worst = by.last().copied().unwrap_or_default();
+        write!(f, "{:>7} {:>8.1} {:>8.1} ", by.len(), ms(p99(&by)), ms(worst))?;
         self.words.iter().try_for_each(|(word, count)| write!(f, " {word} {count}"))
     }
 }
 
-/// How long the answer took from the end of the sending, and its verdict, or its status where it is none.
-fn ask(connection: &mut Client, request: &[u8]) -> (Duration, String) {
+/// How late the answer was, counted from the end of the sending, and its verdict, or its status where it is none.
+fn ask(connection: &mut Client, request: &[u8], limit: Duration) -> (Late, String) {
     connection.send(request).expect("sent");
-    let sent = Instant::now();
+    let due = Instant::now() + limit;
     let reply = connection.receive().expect("an answer");
-    let taken = sent.elapsed();
+    let late = Late { due, end: Instant::now() };
     let body: Value = serde_json::from_slice(&reply.body).expect("JSON");
     let word = body["verdict"].as_str().map_or_else(|| format!("status {}", body["status"]), str::to_owned);
-    (taken, word)
+    (late, word)
 }

@@ -25,17 +25,23 @@ pub(crate) enum End {
     BestSoFar,
 }
 
-/// How long the ends took, ascending; those that came by themselves first are left out.
-pub(crate) fn ends(runtime: &Runtime, request: &Arc<PlanRequest>, end: End) -> Vec<Duration> {
+/// From when to when the ends took, the longest last; those that came by themselves first are left out.
+pub(crate) fn ends(runtime: &Runtime, request: &Arc<PlanRequest>, end: End) -> Vec<(Instant, Instant)> {
     // One may still be on its way out when the next comes.
     let pool = Pool::new(1, 1).expect("a thread");
     let moments = MOMENTS.iter().flat_map(|moment| [moment; ROUNDS]);
-    let mut taken: Vec<Duration> = moments.filter_map(|&moment| once(runtime, &pool, request, end, moment)).collect();
-    taken.sort_unstable();
+    let mut taken: Vec<_> = moments.filter_map(|&moment| once(runtime, &pool, request, end, moment)).collect();
+    taken.sort_unstable_by_key(|&(from, to)| to - from);
     taken
 }
 
-fn once(runtime: &Runtime, pool: &Pool, request: &Arc<PlanRequest>, end: End, moment: Duration) -> Option<Duration> {
+fn once(
+    runtime: &Runtime,
+    pool: &Pool,
+    request: &Arc<PlanRequest>,
+    end: End,
+    moment: Duration,
+) -> Option<(Instant, Instant)> {
     let own = Arc::clone(request);
     let plan = move |budget: &singulate::budget::Budget<'_>| Engine::default().answer(&own, budget).is_ok();
     let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("room");
@@ -55,5 +61,5 @@ fn once(runtime: &Runtime, pool: &Pool, request: &Arc<PlanRequest>, end: End, mo
     while pool.idle() == 0 {
         thread::sleep(Duration::from_micros(100));
     }
-    Some(called.elapsed())
+    Some((called, Instant::now()))
 }

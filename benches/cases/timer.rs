@@ -1,7 +1,6 @@
 //! How late the machine itself is: what a bound on time has to allow for.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,33 +11,52 @@ pub(crate) fn p99(sorted: &[Duration]) -> Duration {
     sorted.get((sorted.len() * 99).div_ceil(100).saturating_sub(1)).copied().unwrap_or_default()
 }
 
-/// Sleeps for a tick at a time and notes how much longer each sleep was.
-pub(crate) struct Timer {
-    stop: Arc<AtomicBool>,
-    thread: thread::JoinHandle<Vec<Duration>>,
+/// Sleeps for a tick at a time, in a thread for each core, and notes how much longer each sleep was.
+pub(crate) struct Timer(Arc<Mutex<Vec<Tick>>>);
+
+/// A sleep: its end, and how much later that was than it should have been.
+#[derive(Clone, Copy)]
+struct Tick {
+    end: Instant,
+    late: Duration,
 }
 
 impl Timer {
+    /// The threads end when this is dropped.
     pub(crate) fn start() -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stop);
-        let thread = thread::spawn(move || {
-            let mut lateness = Vec::new();
-            while !stopped.load(Ordering::Relaxed) {
-                let started = Instant::now();
-                thread::sleep(TICK);
-                lateness.push(started.elapsed().saturating_sub(TICK));
-            }
-            lateness
-        });
-        Self { stop, thread }
+        let ticks = Arc::default();
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            let weak = Arc::downgrade(&ticks);
+            thread::spawn(move || tick(&weak));
+        }
+        Self(ticks)
     }
 
-    /// The 99th percentile of the lateness.
-    pub(crate) fn stop(self) -> Duration {
-        self.stop.store(true, Ordering::Relaxed);
-        let mut lateness = self.thread.join().expect("it counts only");
+    pub(crate) fn p99(&self) -> Duration {
+        let mut lateness: Vec<Duration> = self.ticks().iter().map(|tick| tick.late).collect();
         lateness.sort_unstable();
         p99(&lateness)
+    }
+
+    /// The worst between two moments; both have passed.
+    #[allow(dead_code, reason = "one of the benches asks for the percentile alone")]
+    pub(crate) fn during(&self, from: Instant, to: Instant) -> Duration {
+        let ticks = self.ticks();
+        let those = ticks.iter().filter(|tick| tick.end >= from && tick.end - tick.late <= to);
+        those.map(|tick| tick.late).max().unwrap_or_default()
+    }
+
+    fn ticks(&self) -> MutexGuard<'_, Vec<Tick>> {
+        self.0.lock().expect("no thread panics with it")
+    }
+}
+
+fn tick(ticks: &Weak<Mutex<Vec<Tick>>>) {
+    while let Some(ticks) = ticks.upgrade() {
+        let started = Instant::now();
+        thread::sleep(TICK);
+        let end = Instant::now();
+        let late = (end - started).saturating_sub(TICK);
+        ticks.lock().expect("no thread panics with it").push(Tick { end, late });
     }
 }

@@ -52,7 +52,7 @@ fn main() -> ExitCode {
     let tried = Capacity { plans: TRIED * capacity.plans, jobs: TRIED * capacity.jobs };
     let (timer, memory) = (Timer::start(), Memory::watch(server.process()));
     let mut tally = generator::offer(server.address(), &mix, &tried, LOAD);
-    let (allowance, resident) = (GRACE + timer.stop(), memory.stop());
+    let (allowance, resident) = (GRACE + timer.p99(), memory.stop());
     let lost = ends::lost(server.address(), &tally.accepted);
     tally.lateness.sort_unstable();
     print(&capacity, &tally, &resident);

@@ -157,15 +157,16 @@ impl App {
         self.pool.submit(owner.as_str(), arrival, time_limit, work).map_err(|error| self.turn_away(error))
     }
 
-    /// Whoever would be refused anyway is refused before the body is read, which costs ten times a glance: under overload
-    /// most are, and their reading would take the cores from those that are not.
-    fn refuse_unread(&self, owner: &Owner, arrival: Instant, body: &[u8]) -> Result<(), Problem> {
+    /// A request that would be refused anyway is refused before its body is read, which costs twice a glance: under overload
+    /// most are, and their reading would take the cores from those that are not. The glance, where there was one.
+    fn refuse_unread(&self, owner: &Owner, arrival: Instant, body: &[u8]) -> Result<Option<Glance>, Problem> {
         if self.pool.idle() > 0 {
-            return Ok(());
+            return Ok(None);
         }
-        let time_limit = Glance::at(body, &self.settings.limits).time_limit;
-        let left = time_limit.saturating_sub(arrival.elapsed());
-        self.pool.room(owner.as_str(), left).map_err(|error| self.turn_away(error))
+        let glance = Glance::at(body, &self.settings.limits);
+        let left = glance.time_limit.saturating_sub(arrival.elapsed());
+        self.pool.room(owner.as_str(), left).map_err(|error| self.turn_away(error))?;
+        Ok(Some(glance))
     }
 
     fn turn_away(&self, error: Refused) -> Problem {
@@ -184,8 +185,8 @@ impl App {
         too_late: impl FnOnce(Known<'_, R>) -> Served + Send + 'static,
     ) -> Served {
         self.takes_work()?;
-        self.refuse_unread(owner, arrival, &body)?;
-        let reading = Arc::new(Reading::begin(body, read, self.settings.limits)?);
+        let glance = self.refuse_unread(owner, arrival, &body)?;
+        let reading = Arc::new(Reading::begin(body, glance, read, self.settings.limits)?);
         edge::note_scene(reading.glance().scene_id.as_deref());
         let own = Arc::clone(&reading);
         let time_limit = reading.glance().time_limit;

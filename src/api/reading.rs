@@ -34,13 +34,18 @@ pub(super) enum Known<'a, R> {
 }
 
 impl<R: AsRef<PlanRequest>> Reading<R> {
-    /// Read a small body, glance at a large one.
+    /// Read a small body, glance at a large one unless somebody has.
     ///
     /// # Errors
     /// A problem with every fault of a small body.
-    pub(super) fn begin(body: Received, read: Read<R>, limits: RequestLimits) -> Result<Self, Problem> {
+    pub(super) fn begin(
+        body: Received,
+        glance: Option<Glance>,
+        read: Read<R>,
+        limits: RequestLimits,
+    ) -> Result<Self, Problem> {
         if body.len() > SMALL_BODY {
-            let glance = Glance::at(&body, &limits);
+            let glance = glance.unwrap_or_else(|| Glance::at(&body, &limits));
             return Ok(Self { body: Some(body), read, limits, glance, request: OnceLock::new() });
         }
         let request = read(&body, &limits)?;

@@ -4,8 +4,9 @@ use nalgebra::Point2;
 
 use super::code::ErrorCode;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{Faults, Names, Node, Path, parse};
 use super::request::{PlanRequest, REQUEST, RequestLimits, request};
+use super::typed;
 use crate::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use crate::scene::{COORDINATE_RANGE, Scene};
 
@@ -61,6 +62,17 @@ const VERDICTS: [(&str, VerdictName); 5] = [
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
+    sound(body, limits).map_or_else(|| walked(body, limits), Ok)
+}
+
+pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<VerifyRequest> {
+    let (stated, plan) = typed::verification(body, limits)?;
+    let request = stated.sound(&Path::Root.field("scene"), limits)?;
+    let claim = read_plan(plan.as_bytes(), &request.scene).ok()?;
+    Some(VerifyRequest { request, claim })
+}
+
+pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
     let (value, mut faults) = parse(body)?;
     let request = verify(Node::root(&value), limits, &mut faults);
     faults.judge(request)

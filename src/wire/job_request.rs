@@ -4,8 +4,9 @@ use serde_json::Value;
 
 use super::code::ErrorCode;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{Faults, Names, Node, Path, parse};
 use super::request::{PlanRequest, RequestLimits, request};
+use super::typed;
 
 /// The most scenes of one batch. More of them would be more than one transaction should hold others up for.
 pub const MAX_BATCH: usize = 100;
@@ -37,6 +38,16 @@ const BATCH: Names = Names::of(&["scenes"]);
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_job(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
+    sound(body, limits).map_or_else(|| walked(body, limits), Ok)
+}
+
+pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<JobRequest> {
+    let (stated, callback_url, priority) = typed::job(body, limits)?;
+    let plan = stated.sound(&Path::Root, limits)?;
+    Some(JobRequest { plan, callback_url, priority, body: body.to_owned() })
+}
+
+pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
     let (value, mut faults) = parse(body)?;
     let read = job(Node::root(&value), limits, &mut faults);
     faults.judge(read.map(|job| JobRequest { body: body.to_owned(), ..job }))

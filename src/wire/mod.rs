@@ -1,7 +1,7 @@
 //! Scene, answer and problem as JSON. No other room knows how they are written.
 //!
-//! A body is read as a JSON value and walked, so that faults of shape are told together with those of meaning, each with
-//! its JSON pointer.
+//! A sound body is read straight into drafts. Any other is read as a JSON value and walked, so that faults of shape are told
+//! together with those of meaning, each with its JSON pointer.
 
 mod answer;
 mod claim;
@@ -21,6 +21,7 @@ mod stated;
 mod survey;
 mod table1;
 mod table2;
+mod typed;
 mod verification;
 mod walk;
 

@@ -5,8 +5,9 @@ use core::time::Duration;
 use super::code::ErrorCode;
 use super::finding;
 use super::problem::{Problem, WarningItem};
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{Faults, Names, Node, Path, parse};
 use super::settings::StatedSettings;
+use super::typed;
 use crate::paper::DEFAULT_RESOLUTION;
 use crate::plan::Settings;
 use crate::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
@@ -80,6 +81,16 @@ impl AsRef<PlanRequest> for PlanRequest {
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_scene(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
+    sound(body, limits).map_or_else(|| walked(body, limits), Ok)
+}
+
+/// Read a sound body straight; see [`typed`].
+pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<PlanRequest> {
+    typed::scene(body, limits)?.sound(&Path::Root, limits)
+}
+
+/// Read any body by way of a JSON value.
+pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
     let (value, mut faults) = parse(body)?;
     let request = request(Node::root(&value), &REQUEST, limits, &mut faults);
     faults.judge(request)
@@ -115,17 +126,39 @@ pub(super) fn request(
         target: target.filter(|_| objects.is_some()),
         objects: objects.unwrap_or_default(),
     };
-    let settings = settings?;
-    let overlap_tolerance = settings.overlap_tolerance(limits);
-    match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
-        Ok((scene, warnings)) => {
-            let warnings = warnings.iter().map(|warning| finding::item(node.path(), warning)).collect();
-            let (settings, time_limit) = settings.on(scene.table(), limits, node, faults)?;
-            Some(PlanRequest { scene, scene_id: scene_id?, settings, overlap_tolerance, time_limit, warnings })
-        }
-        Err(findings) => {
-            findings.iter().for_each(|fault| finding::note(node.path(), fault, faults));
-            None
+    let named = scene_id.is_some();
+    let stated = StatedRequest { scene_id: scene_id.flatten(), draft, settings: settings? };
+    stated.checked(node.path(), limits, faults).filter(|_| named)
+}
+
+/// What a request says, its scene unchecked.
+pub(super) struct StatedRequest {
+    pub(super) scene_id: Option<String>,
+    pub(super) draft: SceneDraft,
+    pub(super) settings: StatedSettings,
+}
+
+impl StatedRequest {
+    /// The request that stands at `path`, unless anything is wrong with it.
+    pub(super) fn sound(self, path: &Path<'_>, limits: &RequestLimits) -> Option<PlanRequest> {
+        let mut faults = Faults::default();
+        let request = self.checked(path, limits, &mut faults);
+        faults.judge(request).ok()
+    }
+
+    fn checked(self, path: &Path<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
+        let Self { scene_id, draft, settings } = self;
+        let overlap_tolerance = settings.overlap_tolerance(limits);
+        match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
+            Ok((scene, warnings)) => {
+                let warnings = warnings.iter().map(|warning| finding::item(path, warning)).collect();
+                let (settings, time_limit) = settings.on(scene.table(), limits, path, faults)?;
+                Some(PlanRequest { scene, scene_id, settings, overlap_tolerance, time_limit, warnings })
+            }
+            Err(findings) => {
+                findings.iter().for_each(|fault| finding::note(path, fault, faults));
+                None
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use core::time::Duration;
 
 use super::code::ErrorCode;
-use super::reader::{Faults, Fields, Names, Node};
+use super::reader::{Faults, Fields, Names, Node, Path};
 use super::request::RequestLimits;
 use crate::paper::Raster;
 use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
@@ -51,12 +51,12 @@ impl StatedSettings {
         self.overlap_tolerance.unwrap_or_else(|| limits.greatest_overlap_tolerance())
     }
 
-    /// The settings on the table that they are for; `request` is where they stand.
+    /// The settings on the table that they are for; `request` is the path of the request that has them.
     pub(super) fn on(
         self,
         table: &Table,
         limits: &RequestLimits,
-        request: Node<'_>,
+        request: &Path<'_>,
         faults: &mut Faults,
     ) -> Option<(Settings, Duration)> {
         let StatedPlanning { settings, raster, time_limit } = self.overlap_tolerance.and(self.planning)?;
@@ -66,7 +66,7 @@ impl StatedSettings {
         match Raster::new(limits.raster_resolution, table) {
             Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
             Err(too_fine) => {
-                let settings = request.path().field("settings");
+                let settings = request.field("settings");
                 faults.add(ErrorCode::TooFine, &settings.field("placement"), format_args!("{too_fine}"));
                 None
             }

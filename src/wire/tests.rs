@@ -5,6 +5,7 @@ mod malformed;
 mod noise;
 mod requests;
 mod slips;
+mod typed;
 
 use serde_json::{Value, json};
 

@@ -1,0 +1,126 @@
+//! The two ways to read a body lead to the same request.
+
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+use serde_json::{Value, json};
+
+use super::{scene, with};
+use crate::wire::{RequestLimits, claim, job_request, request, typed};
+
+const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
+ "keep_out": [{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]},
+ "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05, "margin": 0, "yaw_tolerance": 0.01},
+ "objects": [{"id": "a", "x": 0.3, "y": 0.2, "radius": 0.075}, {"id": "b", "x": 0.6, "y": 0.2, "radius": 0.075, "fixed": true}],
+ "target": "a", "settings": {"objective": "short_moves", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
+
+/// What may stand in place of something else: unusual and sound, or faulty.
+const EDITS: [(&str, &str); 45] = [
+    ("0.3", "-0.0"),
+    ("0.3", "-0"),
+    ("0.3", "0.30000000000000004441"),
+    ("0.3", "3E-1"),
+    ("0.3", "1e999"),
+    ("0.3", "1e-999"),
+    ("0.3", "null"),
+    ("0.3", "\"0.3\""),
+    ("0.3", "NaN"),
+    ("1.2", "9007199254740993"),
+    ("1.2", "18446744073709551617"),
+    ("1.2", "99999.99999999999999"),
+    ("1.2", "1"),
+    ("\"a\"", "\"\""),
+    ("\"a\"", r#""\ud83d\ude00""#),
+    ("\"a\"", r#""\ud83d""#),
+    ("\"a\"", r#""\u0000\/""#),
+    ("\"a\"", "5"),
+    ("\"cell\"", "null"),
+    ("\"cell\"", "[]"),
+    ("\"fixed\": true", "\"fixed\": null"),
+    ("\"fixed\": true", "\"fixed\": 1"),
+    ("\"fixed\": true", "\"fixed\": false, \"fixed\": true"),
+    ("\"fixed\": true", "\"shape\": null"),
+    (r#"{"id": "a", "x": 0.3, "y": 0.2, "radius": 0.075}"#, r#"["a", 0.3, 0.2, 0.075, null]"#),
+    (r#"{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}"#, "[0, 0, 0.2, 0.1]"),
+    (r#"{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}"#, "null"),
+    ("\"fingers\": 3", "\"fingers\": 3.0"),
+    ("\"fingers\": 3", "\"fingers\": 3.5"),
+    ("\"fingers\": 3", "\"fingers\": true"),
+    ("\"margin\": 0", "\"margin\": null"),
+    ("\"margin\": 0", "\"margin\": -1"),
+    ("\"margin\": 0", "\"margins\": 0"),
+    ("\"margin\": 0, ", ""),
+    ("\"x\": 0.6, ", ""),
+    ("\"target\": \"a\", ", ""),
+    ("\"target\": \"a\", ", "\"target\": \"a\", \"target\": \"b\", "),
+    ("\"target\": \"a\", ", r#""target": "a", "\u0074arget": "b", "#),
+    ("\"target\": \"a\", ", "\"target\": \"a\", \"priority\": 3, \"callback_url\": null, "),
+    ("\"target\": \"a\", ", "\"target\": \"a\", \"priority\": 101, \"callback_url\": \"http://a\", "),
+    ("\"short_moves\"", "{\"short_moves\": null}"),
+    ("20", "20.0"),
+    ("20", "0"),
+    ("0.002", "0.5"),
+    ("}}", "}} x"),
+];
+
+fn agree<T: core::fmt::Debug, E: core::fmt::Debug>(quick: Option<T>, walked: Result<T, E>, body: &str) {
+    if let Some(quick) = quick {
+        assert_eq!(format!("{quick:?}"), format!("{:?}", walked.expect("sound")), "{body}");
+    }
+}
+
+fn compare(scene: &str) {
+    let limits = RequestLimits::default();
+    agree(request::sound(scene.as_bytes(), &limits), request::walked(scene.as_bytes(), &limits), scene);
+    agree(job_request::sound(scene.as_bytes(), &limits), job_request::walked(scene.as_bytes(), &limits), scene);
+    let body =
+        format!(r#"{{"plan": {{"relocations": [], "target_grasp": {{"yaw": 1}}, "target": "a"}}, "scene": {scene}}}"#);
+    agree(claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits), &body);
+}
+
+proptest! {
+    #[test]
+    fn what_the_straight_way_takes_the_walk_takes_too(edits in subsequence(&EDITS[..], 0..=3)) {
+        let mut body = SOUND.to_owned();
+        for (old, new) in edits {
+            body = body.replacen(old, new, 1);
+        }
+        compare(&body);
+    }
+
+    #[test]
+    fn with_any_byte_lost_or_changed_too(at in 0..SOUND.len(), byte in select(&b"{}[]\":,.eE-+0123456789 \\unl"[..]), lose: bool) {
+        let mut body = SOUND.as_bytes().to_vec();
+        if lose { body.remove(at); } else { body[at] = byte; }
+        compare(&String::from_utf8(body).expect("ASCII"));
+    }
+
+    #[test]
+    fn a_number_is_the_same_double_either_way(literal in "-?(0|[1-9][0-9]{0,24})(\\.[0-9]{1,25})?([eE][+-]?[0-9]{1,3})?") {
+        let value: Value = serde_json::from_str(&literal).expect("a number");
+        let straight = serde_json::from_str::<f64>(&literal).ok();
+        assert_eq!(straight.map(f64::to_bits), value.as_f64().map(f64::to_bits), "{literal}");
+    }
+}
+
+#[test]
+fn each_edit_alone() {
+    compare(SOUND);
+    for (old, new) in EDITS {
+        assert!(SOUND.contains(old), "{old}");
+        compare(&SOUND.replacen(old, new, 1));
+    }
+}
+
+/// Else all would be read the long way, and no test would tell.
+#[test]
+fn sound_bodies_go_the_straight_way() {
+    let limits = RequestLimits::default();
+    let with_settings = with("/settings", json!({"search": "lobs", "placement": "raster", "time_limit_ms": 20.0}));
+    for body in [scene(), with_settings, with("/settings", Value::Null), with("/table/keep_out", Value::Null)] {
+        assert!(typed::scene(body.to_string().as_bytes(), &limits).is_some(), "{body}");
+    }
+    let job = with("/priority", json!(-100));
+    assert!(typed::job(job.to_string().as_bytes(), &limits).is_some());
+    let verification = json!({"scene": scene(), "plan": 5}).to_string();
+    assert!(typed::verification(verification.as_bytes(), &limits).is_some());
+}
