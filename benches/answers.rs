@@ -9,10 +9,10 @@ use core::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use singulate::budget::Budget;
-use singulate::plan::{Settings, plan};
-use singulate::scene::Scene;
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Settings, plan};
+use singulate_planner::scene::Scene;
 
 use paper::paper_50;
 

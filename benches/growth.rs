@@ -8,9 +8,9 @@ use core::hint::black_box;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use singulate::budget::Budget;
-use singulate::knowledge::{close, complete, swept_finger_options};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{close, complete, swept_finger_options};
+use singulate_planner::scene::Scene;
 
 const SIZES: [usize; 8] = [50, 100, 200, 500, 1000, 2000, 5000, 10_000];
 const SCENES: u64 = 3;

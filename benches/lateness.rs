@@ -30,8 +30,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use singulate::api::{self, ServerSettings};
 use singulate::jobs::JobSettings;
-use singulate::scene::{Scene, SceneDraft};
 use singulate::wire::{RequestLimits, SceneBody, read_scene};
+use singulate_planner::scene::{Scene, SceneDraft};
 use tokio::net::TcpListener;
 
 use client::{Client, post};

@@ -10,11 +10,11 @@ use std::env;
 use std::fs;
 use std::process::{Command, ExitCode};
 
-use singulate::budget::Budget;
 use singulate::experiments::Recipe;
-use singulate::plan::{PlanError, plan};
-use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{PlanError, plan};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 const MAX_PEAK_KB: u64 = 100_000;
 /// A name, a scene, and settings in which it names one of the paper's methods.

@@ -5,16 +5,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The rooms, lowest first: each may name those before it, none may name one after it.
-const ROOMS: [&str; 22] = [
-    "budget",
-    "scene",
-    "geometry",
-    "knowledge",
-    "search",
-    "placement",
-    "paper",
-    "plan",
+/// The rooms of the planner, lowest first: each may name those before it, none may name one after it.
+const PLANNER: [&str; 8] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "paper", "plan"];
+/// The rooms of the service, likewise. Each may name the planner.
+const SERVICE: [&str; 14] = [
     "experiments",
     "render",
     "wire",
@@ -30,21 +24,10 @@ const ROOMS: [&str; 22] = [
     "config",
     "cli",
 ];
-const PURE: [&str; 8] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "paper", "plan"];
-/// What no pure room may name: I/O, clocks, environment, threads, randomness, serialisation, the web.
-const IMPURE: [&str; 22] = [
-    "serde",
-    "axum",
-    "tokio",
-    "hyper",
-    "utoipa",
-    "reqwest",
-    "tracing",
-    "clap",
-    "toml",
-    "rand",
-    "rand_chacha",
-    "svg",
+/// All that the planner may depend on.
+const PLANNERS_CRATES: [&str; 7] = ["batsat", "libm", "nalgebra", "rstar", "rustfft", "smallvec", "thiserror"];
+/// What the standard library has and the planner may not name: I/O, clocks, environment, threads, randomness.
+const IMPURE: [&str; 10] = [
     "std::fs",
     "std::io",
     "std::net",
@@ -57,28 +40,31 @@ const IMPURE: [&str; 22] = [
     "RandomState",
 ];
 
+#[derive(Clone)]
 struct Source {
     room: String,
     path: PathBuf,
     text: String,
 }
 
-/// Every source file without its tests and comments.
+/// Every source file of both crates without its tests and comments.
 fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let sources = [sources_of("planner/src"), sources_of("src")].concat();
+    assert!(sources.len() > 40, "the source trees are read");
+    sources
+}
+
+fn sources_of(tree: &str) -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(tree);
     let mut files = Vec::new();
     collect(&root, &mut files);
-    assert!(files.len() > 40, "the source tree is read");
-    files
-        .into_iter()
-        .map(|path| {
-            let inside = path.strip_prefix(&root).unwrap();
-            let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
-            let text = fs::read_to_string(&path).unwrap();
-            Source { room: first.trim_end_matches(".rs").to_owned(), text: code(&text), path }
-        })
-        .filter(|source| !source.path.ends_with("tests.rs"))
-        .collect()
+    let source = |path: PathBuf| {
+        let inside = path.strip_prefix(&root).unwrap();
+        let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        Source { room: first.trim_end_matches(".rs").to_owned(), text: code(&text), path }
+    };
+    files.into_iter().map(source).filter(|source| !source.path.ends_with("tests.rs")).collect()
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
@@ -110,11 +96,12 @@ fn names(text: &str, word: &str) -> bool {
 
 /// The rooms that a file names with a path from the crate's root.
 fn named_rooms(text: &str) -> Vec<&'static str> {
-    ROOMS.into_iter().filter(|room| names(text, &format!("crate::{room}"))).collect()
+    [&PLANNER[..], &SERVICE].concat().into_iter().filter(|room| names(text, &format!("crate::{room}"))).collect()
 }
 
 fn level(room: &str) -> usize {
-    ROOMS.iter().position(|other| *other == room).unwrap_or_else(|| panic!("'{room}' is no known room"))
+    let rooms = [&PLANNER[..], &SERVICE].concat();
+    rooms.iter().position(|other| *other == room).unwrap_or_else(|| panic!("'{room}' is no known room"))
 }
 
 #[test]
@@ -131,13 +118,24 @@ fn no_room_looks_upwards() {
 }
 
 #[test]
-fn pure_rooms_do_no_io_and_read_no_clock() {
-    for Source { room, path, text } in sources() {
-        if PURE.contains(&room.as_str()) {
-            for word in IMPURE {
-                assert!(!names(&text, word), "{} names {word}", path.display());
-            }
+fn the_planner_does_no_io_and_reads_no_clock() {
+    let manifest = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("planner/Cargo.toml")).unwrap();
+    let manifest: toml::Table = manifest.parse().unwrap();
+    let mut crates: Vec<_> = manifest["dependencies"].as_table().unwrap().keys().collect();
+    crates.sort_unstable();
+    assert_eq!(crates, PLANNERS_CRATES);
+    for Source { path, text, .. } in sources_of("planner/src") {
+        for word in IMPURE {
+            assert!(!names(&text, word), "{} names {word}", path.display());
         }
+    }
+}
+
+/// Each type has one name, whichever crate uses it.
+#[test]
+fn the_service_re_exports_nothing_of_the_planner() {
+    for Source { path, text, .. } in sources_of("src") {
+        assert!(!text.contains("pub use singulate_planner"), "{}", path.display());
     }
 }
 
@@ -191,36 +189,22 @@ fn page() -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md")).unwrap()
 }
 
-/// The map's rooms, each with its lines: a room begins at two spaces, its files stand deeper.
-fn mapped_rooms(page: &str) -> Vec<(&str, String)> {
-    let mut rooms: Vec<(&str, String)> = Vec::new();
-    for line in page.split("```").nth(1).unwrap().lines() {
-        match line.strip_prefix("  ") {
-            Some(entry) if !entry.starts_with(' ') => {
-                let name = entry.split(' ').next().unwrap();
-                rooms.push((name.trim_end_matches(".rs").trim_end_matches('/'), entry.to_owned()));
-            }
-            Some(entry) => rooms.last_mut().unwrap().1.push_str(&format!("\n{entry}")),
-            None => {}
-        }
-    }
-    rooms
-}
-
+/// Each crate has its rooms on the map, lowest first, each with its job in one line.
 #[test]
-fn the_map_names_every_module() {
+fn the_map_names_every_room() {
     let page = page();
-    let map = mapped_rooms(&page);
-    let rooms: Vec<&str> = map.iter().map(|(room, _)| *room).collect();
-    assert_eq!(rooms, [&["lib"], &ROOMS[..], &["main"]].concat());
+    let map = page.split("```").nth(1).unwrap();
+    let lines = map.lines().filter_map(|line| line.strip_prefix("  ")).filter(|entry| !entry.starts_with(' '));
+    let rooms: Vec<&str> = lines
+        .map(|entry| {
+            let (room, job) = entry.split_once(' ').unwrap();
+            assert!(job.trim().len() > 10, "{room} has a job");
+            room.trim_end_matches('/').trim_end_matches(".rs")
+        })
+        .collect();
+    assert_eq!(rooms, [&PLANNER[..], &SERVICE].concat());
     for Source { room, path, .. } in sources() {
-        let name = path.file_name().unwrap().to_str().unwrap();
-        // What only tests compile has no place on the map.
-        if ["mod.rs", "scenes.rs"].contains(&name) || path.parent().unwrap().ends_with("tests") {
-            continue;
-        }
-        let entry = &map.iter().find(|(mapped, _)| *mapped == room).unwrap().1;
-        assert!(names(entry, name), "{} is not on the map", path.display());
+        assert!(["lib", "main"].contains(&room.as_str()) || rooms.contains(&room.as_str()), "{}", path.display());
     }
 }
 
@@ -234,7 +218,7 @@ fn last_column<'a>(page: &'a str, section: &str) -> Vec<Vec<&'a str>> {
 /// All tests' text.
 fn tests() -> String {
     let mut files = Vec::new();
-    for folder in ["src", "tests"] {
+    for folder in ["planner", "src", "tests"] {
         collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut files);
     }
     files.iter().map(|path| fs::read_to_string(path).unwrap()).collect()

@@ -43,7 +43,7 @@ fn once(
     moment: Duration,
 ) -> Option<(Instant, Instant)> {
     let own = Arc::clone(request);
-    let plan = move |budget: &singulate::budget::Budget<'_>| Engine::default().answer(&own, budget).is_ok();
+    let plan = move |budget: &singulate_planner::budget::Budget<'_>| Engine::default().answer(&own, budget).is_ok();
     let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("room");
     thread::sleep(moment);
     if pool.idle() == 1 {

@@ -1,9 +1,9 @@
 //! The scenes that ask the most of the service.
 
-use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
-use singulate::knowledge::{close, complete, swept_finger_options};
-use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{close, complete, swept_finger_options};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 use super::cases::{count, scene};
 

@@ -1,7 +1,7 @@
 //! The scenes that more than one bench takes.
 
 use singulate::experiments::{Recipe, generate};
-use singulate::scene::{Scene, SceneDraft, SceneLimits};
+use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
 
 /// The scene of a draft.
 pub(crate) fn scene(draft: SceneDraft) -> Scene {

@@ -1,9 +1,9 @@
 //! The paper's scenes.
 
-use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate};
-use singulate::knowledge::{complete, swept_finger_options};
-use singulate::scene::{ObjectIndex, Scene, SceneLimits};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{complete, swept_finger_options};
+use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
 
 /// The paper's Case II with 50 objects: 1.4 × 1.4 m, the target the object with the largest least option.
 pub(crate) fn paper_50(seed: u64) -> Scene {

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use serde_json::json;
-use singulate::budget::Budget;
-use singulate::plan::{Settings, Verdict, plan};
-use singulate::scene::Scene;
 use singulate::wire::SceneBody;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Settings, Verdict, plan};
+use singulate_planner::scene::Scene;
 
 use super::client::post;
 use super::paper::paper_50;

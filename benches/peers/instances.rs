@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, PAPERS_CASES, Recipe, generate};
-use singulate::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
-use singulate::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
-use singulate::search::{Outcome, Restriction, least};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
+use singulate_planner::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
+use singulate_planner::search::{Outcome, Restriction, least};
 
 use super::cases::count;
 use super::{RUNS, RUNS_ALONE, fastest};

@@ -14,10 +14,10 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use singulate::budget::{Budget, Clock};
-use singulate::knowledge::KnowledgeBase;
-use singulate::scene::ObjectIndex;
-use singulate::search::{Outcome, Restriction, least};
+use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::knowledge::KnowledgeBase;
+use singulate_planner::scene::ObjectIndex;
+use singulate_planner::search::{Outcome, Restriction, least};
 
 use instances::Instance;
 

@@ -2,8 +2,8 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use singulate::knowledge::KnowledgeBase;
-use singulate::scene::ObjectIndex;
+use singulate_planner::knowledge::KnowledgeBase;
+use singulate_planner::scene::ObjectIndex;
 
 use super::instances::Instance;
 

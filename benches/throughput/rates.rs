@@ -6,9 +6,9 @@ use std::sync::Barrier;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use singulate::budget::Budget;
-use singulate::plan::{Answer, plan};
 use singulate::wire::{AnswerBody, PlanRequest, RequestLimits, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, plan};
 
 use super::client::{Client, get, post};
 

@@ -15,13 +15,13 @@ use super::edge;
 use super::problem::{internal, not_ready, refusal, refused, unread};
 use super::reading::{Known, Read, Reading, SMALL_BODY};
 use super::settings::ServerSettings;
-use crate::budget::Budget;
 use crate::jobs::{self, Owner, Runner, Store};
 use crate::keys::Keys;
 use crate::metrics::{Metrics, Queue, Refusal};
 use crate::traces::Context;
 use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
 use crate::workers::{Draining, Engine, Outcome, Pending, Pool, Refused};
+use singulate_planner::budget::Budget;
 
 /// The service's state.
 pub struct App {

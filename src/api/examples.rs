@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::{OpenApi, RefOr, Schema};
 
-use crate::budget::Budget;
-use crate::plan::known;
 use crate::wire::{
     AnswerBody, KnowledgeBody, RequestLimits, StatisticsBody, SurveyBody, VerificationBody, queued_job, read_scene,
     read_verify,
 };
 use crate::workers::Engine;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::known;
 
 /// Give every body of the document its example; that of `SceneBody` is there already.
 pub(super) fn add(document: &mut OpenApi) {

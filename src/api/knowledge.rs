@@ -15,10 +15,10 @@ use super::body;
 use super::document::RequestProblems;
 use super::problem::{late, unread};
 use super::reading::Known;
-use crate::budget::Budget;
-use crate::knowledge::NoBase;
-use crate::plan::known;
 use crate::wire::{KnowledgeBody, PlanRequest, Problem, SceneBody, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::NoBase;
+use singulate_planner::plan::known;
 
 /// Shadows and options of every object
 ///

@@ -15,10 +15,10 @@ use super::body;
 use super::document::RequestProblems;
 use super::problem::unread;
 use super::reading::Known;
-use crate::budget::Budget;
-use crate::plan::{Answer, Statistics, Unplanned, Verdict};
 use crate::render;
 use crate::wire::{AnswerBody, PlanRequest, Problem, SceneBody, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict};
 
 /// Plan now
 ///

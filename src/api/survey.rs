@@ -15,8 +15,8 @@ use super::body;
 use super::document::RequestProblems;
 use super::problem::unread;
 use super::reading::Known;
-use crate::budget::Budget;
 use crate::wire::{PlanRequest, Problem, SceneBody, SurveyBody, read_scene};
+use singulate_planner::budget::Budget;
 
 /// Every movable object as the target
 ///

@@ -14,8 +14,8 @@ use super::app::{App, json};
 use super::body;
 use super::document::RequestProblems;
 use super::reading::Known;
-use crate::budget::Budget;
 use crate::wire::{Problem, VerificationBody, VerifyBody, VerifyRequest, read_verify};
+use singulate_planner::budget::Budget;
 
 /// Check a stated answer
 ///

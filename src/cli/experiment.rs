@@ -11,8 +11,8 @@ use super::progress::Progress;
 use super::verify::Format;
 use super::{Failure, output, results};
 use crate::experiments::{Cause, ExperimentError, ExperimentSettings, table1, table2};
-use crate::plan::PlanError;
 use crate::wire::{Table1Body, Table2Body};
+use singulate_planner::plan::PlanError;
 
 /// The most episodes in a column: the seeds of the next one begin after so many.
 const MAX_EPISODES: u64 = 1_000_000;

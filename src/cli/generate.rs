@@ -4,8 +4,8 @@ use clap::Args;
 
 use super::{Failure, output};
 use crate::experiments::{self, Arrangement, Recipe};
-use crate::scene::{GripperDraft, Scene, SceneLimits};
 use crate::wire::SceneBody;
+use singulate_planner::scene::{GripperDraft, Scene, SceneLimits};
 
 /// The arguments of `generate`. The defaults are the paper's gripper and table.
 #[derive(Debug, Args)]

@@ -8,12 +8,12 @@ use clap::{Args, ValueEnum};
 use super::flags::Flags;
 use super::stopwatch::Stopwatch;
 use super::{Failure, configure, input, output, text};
-use crate::budget::Budget;
-use crate::plan;
-use crate::plan::PlanError;
-use crate::plan::check::Report;
 use crate::render;
 use crate::wire::{AnswerBody, Problem, VerificationBody};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan;
+use singulate_planner::plan::PlanError;
+use singulate_planner::plan::check::Report;
 
 /// The arguments of `plan`.
 #[derive(Debug, Args)]

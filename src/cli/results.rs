@@ -5,7 +5,7 @@ use crate::experiments::{
     ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Repositioning,
     Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
 };
-use crate::plan::{GraspModel, SearchMethod};
+use singulate_planner::plan::{GraspModel, SearchMethod};
 
 /// What nobody can repeat.
 pub(super) const NOT_THE_SAME: &str = "\

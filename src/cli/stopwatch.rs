@@ -3,7 +3,7 @@
 use core::time::Duration;
 use std::time::Instant;
 
-use crate::budget::Clock;
+use singulate_planner::budget::Clock;
 
 /// Counts from its start.
 #[derive(Debug)]

@@ -9,9 +9,9 @@ use super::plan::failed;
 use super::stopwatch::Stopwatch;
 use super::verify::Format;
 use super::{Failure, configure, input, output, text};
-use crate::budget::Budget;
-use crate::plan::survey;
 use crate::wire::SurveyBody;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::survey;
 
 /// The arguments of `survey`.
 #[derive(Debug, Args)]

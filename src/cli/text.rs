@@ -5,12 +5,12 @@ use core::time::Duration;
 use nalgebra::Point2;
 
 use super::table::{Column, table};
-use crate::plan::{
+use crate::render::headline;
+use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
+use singulate_planner::plan::{
     Answer, Deadlock, Grasp, LowerBound, Plan, Statistics, SurveyEntry, SurveyVerdict, Unplanned, Verdict,
 };
-use crate::render::headline;
-use crate::scene::{ObjectIndex, Scene};
-use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
+use singulate_planner::scene::{ObjectIndex, Scene};
 
 /// More ids than this in one sentence nobody reads.
 const MANY: usize = 40;

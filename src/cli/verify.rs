@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 use super::flags::Flags;
 use super::stopwatch::Stopwatch;
 use super::{Failure, configure, input, output, text};
-use crate::budget::Budget;
-use crate::plan::check::check;
 use crate::wire::{VerificationBody, read_plan};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::check;
 
 /// The arguments of `verify`.
 #[derive(Debug, Args)]

@@ -7,7 +7,7 @@ use nalgebra::{Point2, Vector2};
 use rand_chacha::ChaCha8Rng;
 
 use super::generate::{Arrangement, GenerateError, Recipe, between, corners, whole_micrometres};
-use crate::scene::{Disc, distance};
+use singulate_planner::scene::{Disc, distance};
 
 /// How often a place is drawn for one disc before the attempt is given up.
 const TRIES: usize = 2_000;

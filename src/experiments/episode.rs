@@ -7,10 +7,10 @@ use super::papers_cases::PapersCase;
 use super::papers_scene::{PapersScene, complete_base, papers_scene};
 use super::timed_search::{Ending, TimedSearch, timed_search};
 use super::workers::Patience;
-use crate::budget::{Budget, Clock};
-use crate::knowledge::KnowledgeBase;
-use crate::plan::{Answer, GraspModel, SearchMethod, Settings, Verdict, plan};
-use crate::scene::{ObjectIndex, Scene};
+use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::knowledge::KnowledgeBase;
+use singulate_planner::plan::{Answer, GraspModel, SearchMethod, Settings, Verdict, plan};
+use singulate_planner::scene::{ObjectIndex, Scene};
 
 /// Everything that happened in one episode of Table I.
 #[derive(Debug)]
@@ -138,7 +138,7 @@ fn agree(ours: Ending, verdict: &Verdict) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Unplanned;
+    use singulate_planner::plan::Unplanned;
 
     #[test]
     fn a_shorter_sequence_or_one_in_spite_of_a_deadlock_refutes_our_proof() {

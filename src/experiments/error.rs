@@ -2,8 +2,8 @@
 
 use super::generate::GenerateError;
 use super::timed_search::Ending;
-use crate::knowledge::NoBase;
-use crate::plan::PlanError;
+use singulate_planner::knowledge::NoBase;
+use singulate_planner::plan::PlanError;
 
 /// One episode failed, and with it the experiment.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@ use super::episode::{Episode, OnBase};
 use super::interval::Interval;
 use super::spread::Spread;
 use super::timed_search::{Ending, TimedSearch};
-use crate::plan::{GraspModel, SearchMethod, Verdict};
+use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
 
 /// All methods on the bases of one grasp model.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::arrange;
-use crate::scene::{
+use singulate_planner::scene::{
     Disc, Finding, GripperDraft, LENGTH_RANGE, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft,
     SceneLimits, TableDraft,
 };

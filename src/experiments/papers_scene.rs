@@ -7,10 +7,10 @@ use super::error::{Cause, ExperimentError};
 use super::generate::{GenerateError, generate};
 use super::papers_cases::PapersCase;
 use super::workers::Patience;
-use crate::budget::{Budget, Clock};
-use crate::knowledge::{KnowledgeBase, complete};
-use crate::plan::GraspModel;
-use crate::scene::{ObjectIndex, Scene, SceneLimits};
+use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::knowledge::{KnowledgeBase, complete};
+use singulate_planner::plan::GraspModel;
+use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
 
 /// So far apart lie the seeds of two columns, whose scenes on one table would otherwise begin alike.
 const COLUMN_SEEDS: u64 = 1_000_000;
@@ -75,7 +75,7 @@ mod tests {
 
     use super::*;
     use crate::experiments::PAPERS_CASES;
-    use crate::paper::PolarHistogram;
+    use singulate_planner::paper::PolarHistogram;
 
     #[test]
     fn the_target_is_the_first_object_with_the_largest_g_min() {

@@ -8,7 +8,7 @@ use super::papers_cases::{PAPERS_CASES, PapersCase};
 use super::papers_scene::seed_of;
 use super::timed_search::Ending;
 use super::workers::{Patience, in_parallel};
-use crate::plan::{GraspModel, SearchMethod, Verdict};
+use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
 
 /// One column of Table I.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use crate::experiments::episode::OnBase;
     use crate::experiments::timed_search::TimedSearch;
-    use crate::plan::{Answer, Statistics, Unplanned};
+    use singulate_planner::plan::{Answer, Statistics, Unplanned};
 
     const SECOND: Duration = Duration::from_secs(1);
 

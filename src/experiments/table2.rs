@@ -11,10 +11,10 @@ use super::papers_scene::{papers_scene, seed_of};
 use super::spread::Spread;
 use super::timed_search::{Ending, timed_search};
 use super::workers::{Patience, in_parallel};
-use crate::paper::{DEFAULT_RESOLUTION, Raster};
-use crate::plan::check::FaultCode;
-use crate::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
-use crate::scene::Scene;
+use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster};
+use singulate_planner::plan::check::FaultCode;
+use singulate_planner::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
+use singulate_planner::scene::Scene;
 
 /// The ways to find places that are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,10 +3,10 @@
 use core::time::Duration;
 
 use super::workers::Patience;
-use crate::budget::{Budget, Clock};
-use crate::knowledge::KnowledgeBase;
-use crate::plan::{SearchLimits, SearchMethod, Sought, seek_within};
-use crate::scene::ObjectIndex;
+use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::knowledge::KnowledgeBase;
+use singulate_planner::plan::{SearchLimits, SearchMethod, Sought, seek_within};
+use singulate_planner::scene::ObjectIndex;
 
 /// Some 100 bytes a state of the baseline for the paper's scenes, whose sets of objects fit into one word; some 50 MB for
 /// LOBS.

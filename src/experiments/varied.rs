@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::generate::{Arrangement, GenerateError, Recipe, between, corners, generate, rectangle, whole_micrometres};
-use crate::scene::{GripperDraft, RectangleDraft, SceneDraft};
+use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft};
 
 /// Some scene: 2 to 6 fingers, 2 to 80 objects (fewer where they don't fit), equal and mixed radii, loose and pressed,
 /// with and without fixed objects, margin, yaw tolerance and keep-out, the table at the origin or elsewhere.
@@ -98,7 +98,7 @@ fn corner(recipe: &Recipe, random: &mut ChaCha8Rng) -> RectangleDraft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, SceneLimits};
+    use singulate_planner::scene::{Scene, SceneLimits};
 
     #[test]
     fn varied_scenes_hold_and_are_of_every_kind() {
@@ -108,7 +108,7 @@ mod tests {
             let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
             fingers[scene.gripper().fingers() as usize] += 1;
             let radius = |at: usize| scene.objects()[at].disc().radius;
-            fixed += usize::from(scene.objects().iter().any(crate::scene::Object::fixed));
+            fixed += usize::from(scene.objects().iter().any(singulate_planner::scene::Object::fixed));
             mixed += usize::from(scene.objects().len() > 1 && (radius(0) - radius(1)).abs() > 1e-9);
             keep_out += usize::from(!scene.table().keep_out().is_empty());
             away += usize::from(scene.table().top().min() != Point2::origin());

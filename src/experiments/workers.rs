@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Instant;
 
-use crate::budget::Clock;
+use singulate_planner::budget::Clock;
 
 /// What a computation's clock needs to be made: its time limit, and whether another episode has failed.
 #[derive(Debug, Clone, Copy)]

@@ -3,8 +3,8 @@
 use serde_json::value::RawValue;
 
 use super::job::{Event, EventKind, Job, JobState};
-use crate::budget::Incumbent;
 use crate::wire::{IncumbentBody, JobBody, JobStateWord};
+use singulate_planner::budget::Incumbent;
 
 impl Job {
     /// As it is served.

@@ -11,7 +11,7 @@ use super::job::End;
 use super::pause::Pause;
 use super::store::{Claim, Renewal, Store, StoreError};
 use super::timestamp::{Timestamp, WallClock};
-use crate::budget::Incumbent;
+use singulate_planner::budget::Incumbent;
 
 /// The least time between two notes of the best so far: nobody reads faster, and each is a write.
 const NOTE_EVERY: Duration = Duration::from_millis(100);

@@ -6,7 +6,7 @@ use core::str::FromStr;
 use uuid::Uuid;
 
 use super::timestamp::Timestamp;
-use crate::budget::Incumbent;
+use singulate_planner::budget::Incumbent;
 
 /// A job's name. Later jobs have greater ids, to the millisecond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -24,7 +24,7 @@ use async_trait::async_trait;
 use super::hints::Hints;
 use super::job::{End, Job, JobId, JobState, NewJob, Owner};
 use super::timestamp::{Timestamp, WallClock};
-use crate::budget::Incumbent;
+use singulate_planner::budget::Incumbent;
 
 /// How often a job may be begun. Whatever ended three workers would end a fourth.
 pub const MAX_ATTEMPTS: u32 = 3;

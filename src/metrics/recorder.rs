@@ -9,7 +9,7 @@ use prometheus_client::registry::Registry;
 
 use super::families::{Families, Request};
 use super::labels::{CallbackOutcome, Ended, Queue, Refusal, StoreOutcome, method};
-use crate::plan::Answer;
+use singulate_planner::plan::Answer;
 
 /// What one server has measured.
 #[derive(Debug)]

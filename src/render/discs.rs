@@ -6,7 +6,7 @@ use super::label::{self, LARGEST_SIZE};
 use super::paint::{self, Paint, circle, px, ring};
 use super::roles::{Role, Roles};
 use super::view::View;
-use crate::scene::{Disc, ObjectIndex, Rectangle, Scene};
+use singulate_planner::scene::{Disc, ObjectIndex, Rectangle, Scene};
 
 /// The table top with its keep-out rectangles.
 pub(super) fn table(scene: &Scene, view: &View) -> Group {

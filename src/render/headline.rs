@@ -6,8 +6,8 @@ use svg::node::element::Group;
 use super::label;
 use super::paint;
 use super::view::{PADDING, View};
-use crate::plan::{Answer, LowerBound, Plan, Verdict, Warning};
-use crate::scene::{ObjectIndex, Scene};
+use singulate_planner::plan::{Answer, LowerBound, Plan, Verdict, Warning};
+use singulate_planner::scene::{ObjectIndex, Scene};
 
 /// The verdict in one line, without ids.
 pub fn headline(answer: &Answer) -> String {

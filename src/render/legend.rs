@@ -7,8 +7,8 @@ use super::label;
 use super::moves::badge;
 use super::paint::{self, Paint, px, ring};
 use super::view::{PADDING, View};
-use crate::plan::{Answer, Verdict};
-use crate::scene::Scene;
+use singulate_planner::plan::{Answer, Verdict};
+use singulate_planner::scene::Scene;
 
 /// Size of the letters, px.
 const SIZE: f64 = 12.0;
@@ -55,7 +55,7 @@ pub(super) fn legend(scene: &Scene, answer: &Answer, view: &View) -> Legend {
 
 fn signs(scene: &Scene, answer: &Answer) -> Vec<(Sign, &'static str)> {
     let mut signs = vec![(Sign::DoubleRing(paint::TARGET), "target")];
-    if scene.objects().iter().any(crate::scene::Object::fixed) {
+    if scene.objects().iter().any(singulate_planner::scene::Object::fixed) {
         signs.push((Sign::DoubleRing(paint::FIXED), "fixed object"));
     }
     if !scene.table().keep_out().is_empty() {

@@ -16,10 +16,10 @@ pub use headline::headline;
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Description, Group, Line, Pattern, Rectangle, Title};
 
-use crate::plan::{Answer, Verdict};
-use crate::scene::Scene;
 use paint::px;
 use roles::Roles;
+use singulate_planner::plan::{Answer, Verdict};
+use singulate_planner::scene::Scene;
 use view::View;
 
 /// Draw the scene with what was found: the table, who stands where, and the numbered moves or the objects that lock

@@ -7,8 +7,8 @@ use super::discs::{named, outline};
 use super::label;
 use super::paint::{self, Paint, circle, fingers, px, ring};
 use super::view::View;
-use crate::plan::{Grasp, Plan, Relocation, Unplanned};
-use crate::scene::{Disc, Scene, distance};
+use singulate_planner::plan::{Grasp, Plan, Relocation, Unplanned};
+use singulate_planner::scene::{Disc, Scene, distance};
 
 /// Every relocation and the target's grasp. Arrows and numbers come last: they must not hide under a disc.
 pub(super) fn plan(scene: &Scene, plan: &Plan, view: &View) -> Group {

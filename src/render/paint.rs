@@ -6,7 +6,7 @@ use nalgebra::Point2;
 use svg::node::element::{Circle, Group, Polygon};
 
 use super::view::View;
-use crate::scene::{Disc, Gripper};
+use singulate_planner::scene::{Disc, Gripper};
 
 pub(super) const PAPER: &str = "#ffffff";
 pub(super) const INK: &str = "#202124";

@@ -1,7 +1,7 @@
 //! What each object is in the answer.
 
-use crate::plan::{Answer, Verdict};
-use crate::scene::{ObjectIndex, Scene};
+use singulate_planner::plan::{Answer, Verdict};
+use singulate_planner::scene::{ObjectIndex, Scene};
 
 /// An object's part in the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

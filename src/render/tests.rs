@@ -5,9 +5,9 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::*;
-use crate::plan::check::{Fault, FaultCode};
-use crate::plan::{Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Warning};
-use crate::scene::{
+use singulate_planner::plan::check::{Fault, FaultCode};
+use singulate_planner::plan::{Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Warning};
+use singulate_planner::scene::{
     GripperDraft, ObjectDraft, ObjectIndex, RectangleDraft, SceneDraft, SceneLimits, TableDraft, distance,
 };
 

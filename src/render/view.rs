@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
-use crate::plan::{Answer, Verdict};
-use crate::scene::{Disc, Scene};
+use singulate_planner::plan::{Answer, Verdict};
+use singulate_planner::scene::{Disc, Scene};
 
 /// Room round everything, px.
 pub(super) const PADDING: f64 = 24.0;
@@ -93,5 +93,5 @@ fn drawn<'a>(scene: &'a Scene, answer: &'a Answer) -> impl Iterator<Item = Disc>
     });
     let grasped = matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_));
     let target = grasped.then(|| reach(scene.object(scene.target()).disc()));
-    scene.objects().iter().map(crate::scene::Object::disc).chain(moved).chain(target)
+    scene.objects().iter().map(singulate_planner::scene::Object::disc).chain(moved).chain(target)
 }

@@ -8,7 +8,7 @@ use opentelemetry::{Context, KeyValue};
 use opentelemetry_sdk::trace::SdkTracer;
 
 use super::traceparent::Traceparent;
-use crate::plan::Answer;
+use singulate_planner::plan::Answer;
 
 static TRACER: OnceLock<SdkTracer> = OnceLock::new();
 

@@ -11,8 +11,8 @@ use super::finding;
 use super::glance::Glance;
 use super::problem::WarningItem;
 use super::request::PlanRequest;
-use crate::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
-use crate::scene::{ObjectIndex, Scene};
+use singulate_planner::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
+use singulate_planner::scene::{ObjectIndex, Scene};
 
 /// The answer to a planning request. A client must refuse a verdict that it doesn't know.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]

@@ -7,8 +7,8 @@ use super::problem::Problem;
 use super::reader::{Faults, Names, Node, Path, parse};
 use super::request::{PlanRequest, REQUEST, RequestLimits, request};
 use super::typed;
-use crate::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
-use crate::scene::{COORDINATE_RANGE, Scene};
+use singulate_planner::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
+use singulate_planner::scene::{COORDINATE_RANGE, Scene};
 
 /// A checked verification request.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use super::code::ErrorCode;
 use super::problem::WarningItem;
 use super::reader::{Faults, Path};
-use crate::plan::{Cause, Warning};
-use crate::scene::{Finding, Flaw, Place, Scene};
+use singulate_planner::plan::{Cause, Warning};
+use singulate_planner::scene::{Finding, Flaw, Place, Scene};
 
 /// A finding as a warning; `scene` is where the scene stands in the body.
 pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> WarningItem {

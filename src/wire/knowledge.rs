@@ -3,10 +3,10 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::geometry::Arc;
-use crate::paper::PolarHistogram;
-use crate::plan::Known;
-use crate::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
+use singulate_planner::geometry::Arc;
+use singulate_planner::paper::PolarHistogram;
+use singulate_planner::plan::Known;
+use singulate_planner::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
 /// What is known of every object before any search.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]

@@ -8,9 +8,11 @@ use super::problem::{Problem, WarningItem};
 use super::reader::{Faults, Names, Node, Path, parse};
 use super::settings::StatedSettings;
 use super::typed;
-use crate::paper::DEFAULT_RESOLUTION;
-use crate::plan::Settings;
-use crate::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
+use singulate_planner::paper::DEFAULT_RESOLUTION;
+use singulate_planner::plan::Settings;
+use singulate_planner::scene::{
+    Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft,
+};
 
 /// The longest scene id, characters: it stands in every log line of its request.
 pub const MAX_SCENE_ID_LENGTH: usize = 256;

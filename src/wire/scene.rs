@@ -7,8 +7,8 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::experiments::Repositioning;
-use crate::plan::{GraspModel, SearchMethod};
-use crate::scene::{Gripper, Object, Rectangle, Scene};
+use singulate_planner::plan::{GraspModel, SearchMethod};
+use singulate_planner::scene::{Gripper, Object, Rectangle, Scene};
 
 /// A scene and how to plan for it: the body of a planning request.
 #[derive(Debug, Clone, Serialize, ToSchema)]

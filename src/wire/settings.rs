@@ -5,9 +5,9 @@ use core::time::Duration;
 use super::code::ErrorCode;
 use super::reader::{Faults, Fields, Names, Node, Path};
 use super::request::RequestLimits;
-use crate::paper::Raster;
-use crate::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
-use crate::scene::Table;
+use singulate_planner::paper::Raster;
+use singulate_planner::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
+use singulate_planner::scene::Table;
 
 const SETTINGS: Names =
     Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms", "overlap_tolerance"]);

@@ -3,8 +3,8 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::plan::{SurveyEntry, SurveyVerdict};
-use crate::scene::Scene;
+use singulate_planner::plan::{SurveyEntry, SurveyVerdict};
+use singulate_planner::scene::Scene;
 
 /// Every movable object as the target. Logic only: places for the relocated objects are not sought.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]

@@ -7,7 +7,7 @@ use crate::experiments::{
     ExperimentSettings, Interval, MethodFigures, ModelFigures, PlanFigures, Printed, Spread, TABLE1_EPISODES,
     Table1Column,
 };
-use crate::plan::SearchMethod;
+use singulate_planner::plan::SearchMethod;
 
 /// Table I. Rates are from 0 to 1, times in seconds; null stands where there is nothing to measure.
 #[derive(Debug, Serialize)]

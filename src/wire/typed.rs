@@ -13,7 +13,7 @@ use super::job_request::{MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE};
 use super::reader::{Node, parse};
 use super::request::{MAX_SCENE_ID_LENGTH, RequestLimits, StatedRequest};
 use super::settings::StatedSettings;
-use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 /// A planning request. `None` unless it is sound, its scene apart.
 pub(super) fn scene(body: &[u8], limits: &RequestLimits) -> Option<StatedRequest> {

@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use serde_json::Value;
 
 use super::reader::{MAX_FAULTS, Path};
-use crate::scene::MAX_ID_LENGTH;
+use singulate_planner::scene::MAX_ID_LENGTH;
 
 /// How deep values may be nested; the JSON library allows as much.
 const MAX_DEPTH: usize = 128;

@@ -1,11 +1,11 @@
 //! The computations that the service offers, and what it says where one of them fails.
 
-use crate::budget::Budget;
-use crate::plan::check::{self, Report};
-use crate::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
-use crate::scene::Scene;
 use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::{self, Report};
+use singulate_planner::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
+use singulate_planner::scene::Scene;
 
 /// The computations. The default is the planner; a test may stand in another.
 #[derive(Clone, Copy)]

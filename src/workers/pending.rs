@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use tokio::sync::{Notify, oneshot};
 use tokio::time::sleep_until;
 
-use crate::budget::{Budget, Clock};
+use singulate_planner::budget::{Budget, Clock};
 
 /// How long after the deadline a running computation may still deliver. The answer must leave within 50 ms of it, and on a
 /// busy machine it takes a while to be written.

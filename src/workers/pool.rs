@@ -12,7 +12,7 @@ use tokio::sync::oneshot;
 use super::forecast::Forecast;
 use super::pending::{Pending, Ticket};
 use super::queue::Queue;
-use crate::budget::Budget;
+use singulate_planner::budget::Budget;
 
 /// A fixed number of threads and the computations that wait for them.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 use super::{Outcome, Pool, Refused};
-use crate::budget::Budget;
+use singulate_planner::budget::Budget;
 
 const ANYBODY: &str = "anonymous";
 

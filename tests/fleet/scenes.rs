@@ -1,11 +1,11 @@
 //! What is handed in: the same scenes in every run.
 
 use serde_json::{Value, json};
-use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
-use singulate::knowledge::{close, complete, swept_finger_options};
-use singulate::scene::{GripperDraft, Scene, SceneDraft, SceneLimits};
 use singulate::wire::SceneBody;
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{close, complete, swept_finger_options};
+use singulate_planner::scene::{GripperDraft, Scene, SceneDraft, SceneLimits};
 
 /// One request for a job.
 #[derive(Debug, Clone)]

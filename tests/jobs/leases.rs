@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use singulate::budget::Incumbent;
 use singulate::jobs::{Claim, End, EventKind, JobState, MAX_ATTEMPTS, Renewal, Store, Swept};
+use singulate_planner::budget::Incumbent;
 
 use crate::home::{Home, ann, at, claimed, job, seen, submitted};
 

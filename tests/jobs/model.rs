@@ -2,8 +2,8 @@
 
 use core::cmp::Reverse;
 
-use singulate::budget::Incumbent;
 use singulate::jobs::{Claim, Event, EventKind, Job, JobId, JobState, MAX_ATTEMPTS, NewJob, Owner, Swept, Timestamp};
+use singulate_planner::budget::Incumbent;
 
 use crate::home::{LEASE, TTL};
 

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use singulate::budget::Incumbent;
 use singulate::jobs::{
     Cancellation, Claim, End, Job, JobId, JobSettings, JobState, NewJob, Owner, Page, Removal, Renewal, Store,
     SubmitError, Swept, Timestamp, open,
 };
+use singulate_planner::budget::Incumbent;
 
 use crate::home::{Home, ann, at, bob, job};
 use crate::model::{Model, Refusal};

@@ -5,10 +5,10 @@ use core::time::Duration;
 use std::sync::Arc;
 
 use futures_util::future::{ready, select};
-use singulate::budget::Incumbent;
 use singulate::jobs::{
     Claim, Delivery, End, EventKind, Job, JobId, JobState, NewJob, Renewal, Store, Swept, WallClock,
 };
+use singulate_planner::budget::Incumbent;
 use sqlx::{Connection, PgConnection, SqliteConnection};
 use tokio::time::{Instant, sleep};
 

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use singulate::api::Engine;
-use singulate::budget::Budget;
 use singulate::jobs::{JobId, JobSettings, JobState, NewJob, Owner, Runner, Store, Timestamp, open};
-use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
-use singulate::scene::Scene;
 use singulate::wire::RequestLimits;
 use singulate::workers::Draining;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate_planner::scene::Scene;
 use tokio::time::sleep;
 use tokio_util::sync::CancellationToken;
 

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use serde::Deserialize;
-use singulate::budget::Budget;
-use singulate::knowledge::{KnowledgeBase, close};
-use singulate::scene::ObjectIndex;
-use singulate::search::{Memory, Outcome, Restriction, least_within};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{KnowledgeBase, close};
+use singulate_planner::scene::ObjectIndex;
+use singulate_planner::search::{Memory, Outcome, Restriction, least_within};
 
 #[derive(Deserialize)]
 struct Case {

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use singulate::budget::Budget;
 use singulate::experiments::varied;
-use singulate::plan::check::check;
-use singulate::plan::{Verdict, plan};
-use singulate::scene::{Scene, SceneLimits};
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_plan, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::check;
+use singulate_planner::plan::{Verdict, plan};
+use singulate_planner::scene::{Scene, SceneLimits};
 
 /// How many scenes; the continuous integration asks for more.
 fn count() -> u64 {

@@ -4,12 +4,12 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
-use singulate::budget::Budget;
 use singulate::experiments::varied;
-use singulate::plan::check::check;
-use singulate::plan::{Answer, Plan, Verdict, plan, survey};
-use singulate::scene::{Disc, Scene, SceneLimits};
 use singulate::wire::{AnswerBody, PlanRequest, RequestLimits, SceneBody, read_plan, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::check;
+use singulate_planner::plan::{Answer, Plan, Verdict, plan, survey};
+use singulate_planner::scene::{Disc, Scene, SceneLimits};
 
 /// How far a centre is off, m.
 const NOISE: f64 = 3e-3;

@@ -2,15 +2,19 @@
 
 use std::fs;
 
-use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate, varied};
-use singulate::knowledge::{KnowledgeBase, OptionsOf, complete, swept_finger_options};
-use singulate::paper::{Conclusion, PolarHistogram, Raster, forward_astar, lobs, sector_options, sector_shadow};
-use singulate::plan::check::{FaultCode, check};
-use singulate::plan::{Answer, Claim, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning, plan};
-use singulate::scene::{ObjectIndex, Scene, SceneLimits};
-use singulate::search::{Derivation, Outcome, Restriction, least};
 use singulate::wire::{RequestLimits, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{KnowledgeBase, OptionsOf, complete, swept_finger_options};
+use singulate_planner::paper::{
+    Conclusion, PolarHistogram, Raster, forward_astar, lobs, sector_options, sector_shadow,
+};
+use singulate_planner::plan::check::{FaultCode, check};
+use singulate_planner::plan::{
+    Answer, Claim, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning, plan,
+};
+use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
+use singulate_planner::search::{Derivation, Outcome, Restriction, least};
 
 const MANY: usize = 1_000_000;
 

@@ -3,8 +3,8 @@
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use singulate::experiments::{PAPERS_CASES, Recipe, generate, varied};
-use singulate::scene::{Scene, SceneDraft, SceneLimits};
 use singulate::wire::{RequestLimits, SceneBody, read_scene};
+use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
 
 #[derive(Deserialize)]
 struct Case<'a> {

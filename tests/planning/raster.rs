@@ -1,19 +1,19 @@
 //! The paper's repositioning before the checker: what it puts down touches nothing, but may not come off the gripper.
 
 use nalgebra::Point2;
-use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate, varied};
-use singulate::geometry::shadow;
-use singulate::paper::{DEFAULT_RESOLUTION, Raster, reposition};
-use singulate::placement::Arrangement;
-use singulate::plan::check::FaultCode::{self, *};
-use singulate::plan::{Claim, ClaimedGrasp, ClaimedRelocation, Settings, Verdict, plan};
-use singulate::scene::{ObjectIndex, Scene, SceneDraft, SceneLimits};
+use singulate_planner::budget::Budget;
+use singulate_planner::geometry::shadow;
+use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster, reposition};
+use singulate_planner::placement::Arrangement;
+use singulate_planner::plan::check::FaultCode::{self, *};
+use singulate_planner::plan::{Claim, ClaimedGrasp, ClaimedRelocation, Settings, Verdict, plan};
+use singulate_planner::scene::{ObjectIndex, Scene, SceneDraft, SceneLimits};
 
 use crate::check::scenes::{Builder, codes, judge};
 
 fn stated(scene: &Scene, arrangement: &Arrangement) -> Claim {
-    let grasp = |grasp: singulate::geometry::Grasp| ClaimedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
+    let grasp = |grasp: singulate_planner::geometry::Grasp| ClaimedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
     let steps = arrangement.relocations.iter().map(|step| ClaimedRelocation {
         object: scene.object(step.object).id().to_owned(),
         from: Some(step.from),

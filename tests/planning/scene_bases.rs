@@ -1,11 +1,11 @@
 //! Bases that come from scenes: the search and the locks against exhaustion.
 
-use singulate::budget::Budget;
 use singulate::experiments::{Arrangement, Recipe, generate};
-use singulate::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
-use singulate::plan::{Settings, Verdict, plan};
-use singulate::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits};
-use singulate::search::{Outcome, Restriction, least};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
+use singulate_planner::plan::{Settings, Verdict, plan};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits};
+use singulate_planner::search::{Outcome, Restriction, least};
 
 /// Up to 11 discs, with gaps about as wide as a finger, so that options share members, hold each other and the target.
 fn crowd(seed: u64) -> Scene {

@@ -2,9 +2,9 @@
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
-use singulate::budget::Budget;
-use singulate::plan::{Claim, Verdict, check, plan};
 use singulate::wire::{RequestLimits, read_scene};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Claim, Verdict, check, plan};
 
 #[derive(Deserialize)]
 struct Case<'a> {

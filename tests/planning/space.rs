@@ -1,10 +1,10 @@
 //! Places where space is short or strangely shaped.
 
-use singulate::budget::Budget;
 use singulate::experiments::{Recipe, generate, varied};
-use singulate::plan::check::check;
-use singulate::plan::{Answer, Claim, Objective, Relocation, Settings, Statistics, Verdict, plan};
-use singulate::scene::{Disc, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::check;
+use singulate_planner::plan::{Answer, Claim, Objective, Relocation, Settings, Statistics, Verdict, plan};
+use singulate_planner::scene::{Disc, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
 fn verdict(draft: SceneDraft, objective: Objective) -> Verdict {
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();

@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 use singulate::api::{ServerSettings, openapi_json};
-use singulate::scene::{
+use singulate::wire::{MAX_SCENE_ID_LENGTH, RequestLimits};
+use singulate_planner::scene::{
     COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_FINDINGS, MAX_ID_LENGTH, SceneLimits,
     YAW_TOLERANCE_RANGE,
 };
-use singulate::wire::{MAX_SCENE_ID_LENGTH, RequestLimits};
 
 use crate::host::Host;
 

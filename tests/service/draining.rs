@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use singulate::api::{Engine, ServerSettings};
-use singulate::budget::Budget;
-use singulate::plan::{Answer, PlanError, Settings};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::scene::Scene;
 
 use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};
 use crate::planning::{endless, timed_out, wait_for_the_end};

@@ -11,8 +11,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use singulate::experiments::varied;
-use singulate::scene::{Scene, SceneLimits};
 use singulate::wire::SceneBody;
+use singulate_planner::scene::{Scene, SceneLimits};
 
 use crate::host::Host;
 

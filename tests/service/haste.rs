@@ -6,8 +6,8 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
 use singulate::experiments::{Recipe, generate};
-use singulate::scene::{Scene, SceneDraft, SceneLimits};
 use singulate::wire::SceneBody;
+use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
 
 use crate::hard::hard;
 use crate::host::{Host, PATIENCE, raw_post};

@@ -7,7 +7,7 @@ use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
 use singulate::metrics::{CallbackOutcome, Ended, Metrics, Queue, Refusal, StoreOutcome};
-use singulate::plan::{Answer, Statistics, Unplanned, Verdict};
+use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict};
 use tokio::time::timeout;
 
 use crate::host::{Host, PATIENCE, raw_post, scene};

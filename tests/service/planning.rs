@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
-use singulate::budget::Budget;
-use singulate::plan::check::Report;
-use singulate::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::Report;
+use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate_planner::scene::Scene;
 
 use crate::host::{Host, PATIENCE, raw_plan, scene, wait_until};
 

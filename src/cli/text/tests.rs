@@ -1,9 +1,9 @@
 //! The texts, word for word.
 
 use super::*;
-use crate::plan::Relocation;
-use crate::plan::check::{Fault, FaultCode, Report};
 use crate::wire::{RequestLimits, read_scene};
+use singulate_planner::plan::Relocation;
+use singulate_planner::plan::check::{Fault, FaultCode, Report};
 
 fn request() -> PlanRequest {
     let scene = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 2, "y_max": 1},

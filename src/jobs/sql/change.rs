@@ -11,8 +11,8 @@ use super::events;
 use super::herald::News;
 use super::row;
 use super::store::SqlStore;
-use crate::budget::Incumbent;
 use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
+use singulate_planner::budget::Incumbent;
 
 /// What has to be known of a job before it is changed.
 pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \

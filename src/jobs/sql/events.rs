@@ -2,8 +2,8 @@
 
 use core::str::FromStr;
 
-use crate::budget::Incumbent;
 use crate::jobs::{Event, EventKind, Timestamp};
+use singulate_planner::budget::Incumbent;
 
 const KINDS: [EventKind; 4] = [EventKind::Queued, EventKind::Running, EventKind::Incumbent, EventKind::Finished];
 

@@ -17,11 +17,11 @@ use super::file;
 use super::herald::Herald;
 use super::submit::{Submitted, submit};
 use super::{callbacks, owner, row, sweep, worker};
-use crate::budget::Incumbent;
 use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobSettings, NewJob, Owner, Page,
     Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
+use singulate_planner::budget::Incumbent;
 
 use crate::metrics::{Metrics, StoreOutcome};
 

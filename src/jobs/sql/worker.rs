@@ -8,8 +8,8 @@ use super::events;
 use super::herald::News;
 use super::row;
 use super::store::SqlStore;
-use crate::budget::Incumbent;
 use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
+use singulate_planner::budget::Incumbent;
 
 /// The lease begins once the job is ours: another's lock may have kept us waiting.
 pub(super) async fn claim(change: &mut Change<'_>, clock: &WallClock) -> Result<Option<Claimed>, Error> {

@@ -6,9 +6,11 @@ use nalgebra::Point2;
 use serde_json::{Value, json};
 
 use super::{has_faults, read, scene, with};
-use crate::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict, VerdictName};
-use crate::scene::ObjectIndex;
 use crate::wire::*;
+use singulate_planner::plan::{
+    Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict, VerdictName,
+};
+use singulate_planner::scene::ObjectIndex;
 
 fn verdicts() -> Vec<Verdict> {
     let (b, grasp) = (ObjectIndex::new(1), Grasp { yaw: 0.5, slack: 0.2 });

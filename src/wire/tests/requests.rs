@@ -5,8 +5,8 @@ use core::time::Duration;
 use serde_json::{Value, json};
 
 use super::{has_faults, read, scene, with, without};
-use crate::plan::Objective;
 use crate::wire::*;
+use singulate_planner::plan::Objective;
 
 #[track_caller]
 fn refuses(body: &str, expected: &[(&str, &str)]) {

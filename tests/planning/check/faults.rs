@@ -2,8 +2,8 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use singulate::plan::check::FaultCode::{self, *};
-use singulate::plan::{Claim, ClaimedRelocation, VerdictName};
+use singulate_planner::plan::check::FaultCode::{self, *};
+use singulate_planner::plan::{Claim, ClaimedRelocation, VerdictName};
 
 use super::scenes::*;
 

@@ -3,11 +3,11 @@
 use core::cell::Cell;
 use core::time::Duration;
 
-use singulate::budget::{Budget, Clock};
-use singulate::plan::check::FaultCode::*;
-use singulate::plan::check::{MAX_FAULTS, check};
-use singulate::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, VerdictName};
-use singulate::scene::Scene;
+use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::plan::check::FaultCode::*;
+use singulate_planner::plan::check::{MAX_FAULTS, check};
+use singulate_planner::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, VerdictName};
+use singulate_planner::scene::Scene;
 
 use super::scenes::*;
 

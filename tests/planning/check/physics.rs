@@ -2,14 +2,14 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use singulate::plan::check::FaultCode::{self, *};
-use singulate::plan::{Claim, VerdictName};
-use singulate::scene::Scene;
+use singulate_planner::plan::check::FaultCode::{self, *};
+use singulate_planner::plan::{Claim, VerdictName};
+use singulate_planner::scene::Scene;
 
 use super::scenes::*;
 
 fn just_grasp(yaw: f64, slack: Option<f64>) -> Claim {
-    let target_grasp = Some(singulate::plan::ClaimedGrasp { yaw, slack });
+    let target_grasp = Some(singulate_planner::plan::ClaimedGrasp { yaw, slack });
     Claim { target_grasp, ..Claim::default() }
 }
 

@@ -1,8 +1,8 @@
 //! Bounds, locks and derivations.
 
-use singulate::plan::check::FaultCode::{self, *};
-use singulate::plan::{Claim, ClaimedDeadlock, VerdictName};
-use singulate::scene::Scene;
+use singulate_planner::plan::check::FaultCode::{self, *};
+use singulate_planner::plan::{Claim, ClaimedDeadlock, VerdictName};
+use singulate_planner::scene::Scene;
 
 use super::scenes::*;
 

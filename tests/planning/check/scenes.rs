@@ -1,10 +1,10 @@
 //! A small builder of scenes and stated answers, and one scene with a plan that is worked out by hand.
 
 use nalgebra::Point2;
-use singulate::budget::Budget;
-use singulate::plan::check::{FaultCode, Report, check};
-use singulate::plan::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
-use singulate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::{FaultCode, Report, check};
+use singulate_planner::plan::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
 pub(crate) struct Builder(SceneDraft);
 

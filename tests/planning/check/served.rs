@@ -1,10 +1,10 @@
 //! Answers of the planner with one thing taken away or added: the proofs say that none of these can hold.
 
-use singulate::budget::Budget;
 use singulate::experiments::varied;
-use singulate::plan::check::FaultCode::*;
-use singulate::plan::{Claim, Settings, plan};
-use singulate::scene::{Scene, SceneLimits};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::check::FaultCode::*;
+use singulate_planner::plan::{Claim, Settings, plan};
+use singulate_planner::scene::{Scene, SceneLimits};
 
 use super::scenes::*;
 

@@ -5,9 +5,9 @@ use std::net::Shutdown;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use singulate::api::{Engine, ServerSettings};
-use singulate::budget::Budget;
-use singulate::plan::{Answer, PlanError, Settings};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::scene::Scene;
 
 use super::{others_are_served, send, served_meanwhile};
 use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};

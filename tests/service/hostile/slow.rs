@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use singulate::api::{Engine, ServerSettings};
-use singulate::budget::Budget;
 use singulate::jobs::JobSettings;
-use singulate::plan::{Answer, PlanError, Settings};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::scene::Scene;
 use tokio::time::sleep;
 
 use super::{others_are_served, served_meanwhile};

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
-use singulate::budget::Budget;
 use singulate::jobs::JobSettings;
-use singulate::plan::{Answer, PlanError, Settings};
-use singulate::scene::Scene;
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::scene::Scene;
 
 use super::{crowded, ended, path, submit};
 use crate::host::{Host, PATIENCE, endless, scene};
@@ -58,7 +58,7 @@ async fn a_queued_job_is_cancelled_at_once_and_a_running_one_with_its_best() {
 async fn a_panic_is_one_failed_job_and_its_worker_lives_on() {
     fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
         assert!(scene.objects().len() > 2, "on purpose");
-        singulate::plan::plan(scene, settings, budget)
+        singulate_planner::plan::plan(scene, settings, budget)
     }
     let host = one_worker(Engine { plan, ..Engine::default() }).await;
     for _ in 0..3 {

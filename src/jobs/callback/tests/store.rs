@@ -5,11 +5,11 @@ use std::sync::Mutex;
 
 use async_trait::async_trait;
 
-use crate::budget::Incumbent;
 use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobState, NewJob, Owner, Page,
     Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
+use singulate_planner::budget::Incumbent;
 
 #[derive(Default)]
 pub(super) struct Callbacks {

@@ -22,6 +22,6 @@ pub use confirm::PlanError;
 pub use known::{Known, KnownOption, known};
 pub use planner::plan;
 pub use settings::{GraspModel, PlacementMethod, SearchMethod, Settings};
-pub(crate) use sought::{SearchLimits, Sought, seek_within};
+pub use sought::{SearchLimits, Sought, seek_within};
 pub use survey::{SurveyEntry, SurveyVerdict, survey};
 pub use warning::{Cause, Warning};

@@ -10,20 +10,20 @@ use crate::search::{Derivation, LeastSet, Outcome, Restriction, least};
 
 /// How much the paper's searches may keep in memory.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SearchLimits {
+pub struct SearchLimits {
     /// The most objects in OPEN, or in one product of premises, of LOBS.
-    pub(crate) lobs_members: usize,
+    pub lobs_members: usize,
     /// The most states of A*.
-    pub(crate) astar_states: usize,
+    pub astar_states: usize,
     /// The most words of all of A*'s sets together, which matters where there are many objects.
-    pub(crate) astar_words: usize,
+    pub astar_words: usize,
 }
 
 /// For a request: some 20 MB, and some 20 ms to give them back; some 50 MB for a scene of 64 objects.
 const LIMITS: SearchLimits = SearchLimits { lobs_members: 2_000_000, astar_states: 500_000, astar_words: 4_000_000 };
 
 /// What a search says.
-pub(crate) enum Sought {
+pub enum Sought {
     /// A least set, with proof.
     Least(LeastSet),
     /// The best set so far; the budget ended.
@@ -60,7 +60,7 @@ pub(super) fn seek(method: SearchMethod, base: &KnowledgeBase, target: ObjectInd
 }
 
 /// Search for what frees the target.
-pub(crate) fn seek_within(
+pub fn seek_within(
     method: SearchMethod,
     base: &KnowledgeBase,
     target: ObjectIndex,
