@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::geometry::{ArcSet, Grasp, Shadow, widest_grasp};
-use crate::scene::{Disc, ObjectIndex, Scene};
+use crate::scene::{Disc, Gripper, ObjectIndex, Scene};
 
 /// The scene after some moves, with some objects lifted off the table.
 #[derive(Debug, Clone)]
@@ -74,12 +74,8 @@ impl<'a> Layout<'a> {
     /// `extra` (m) away from all else.
     pub fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
         let gripper = self.scene.gripper();
-        let reach = gripper.corner_distance(disc.radius) + gripper.margin() + extra;
-        let shadows: Vec<ArcSet> = self
-            .near(disc.centre, reach)
-            .filter(|(other, _)| *other != object)
-            .map(|(_, obstacle)| (self.model)(gripper, disc, &obstacle, extra))
-            .collect();
+        let others = self.near(disc.centre, reach(gripper, disc) + extra).filter(|(other, _)| *other != object);
+        let shadows: Vec<ArcSet> = others.map(|(_, other)| (self.model)(gripper, disc, &other, extra)).collect();
         ArcSet::union(gripper.period(), &shadows)
     }
 
@@ -94,4 +90,17 @@ impl<'a> Layout<'a> {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
         others.map(|other| disc.gap(&self.disc(other))).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// How far from its centre fingers round `disc` must be clear of others, m.
+fn reach(gripper: &Gripper, disc: &Disc) -> f64 {
+    gripper.corner_distance(disc.radius) + gripper.margin()
+}
+
+/// How an object can be grasped as the table stands.
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
+    let (gripper, disc) = (scene.gripper(), scene.object(object).disc());
+    let others = scene.index().within(disc.centre, reach(gripper, &disc)).filter(|(other, _)| *other != object);
+    let shadows: Vec<ArcSet> = others.map(|(_, other)| model(gripper, &disc, &other, 0.0)).collect();
+    widest_grasp(gripper, &ArcSet::union(gripper.period(), &shadows))
 }

@@ -14,10 +14,10 @@ mod tabletop;
 
 pub use arrange::{Arrangement, Task, arrange};
 pub use effort::Effort;
-pub use layout::Layout;
+pub use layout::{Layout, grasp_in_place};
 
-use crate::geometry::{Grasp, Shadow};
-use crate::scene::{ObjectIndex, Scene};
+use crate::geometry::Grasp;
+use crate::scene::ObjectIndex;
 use nalgebra::Point2;
 
 /// Which of the free places a relocated object goes to.
@@ -56,11 +56,6 @@ pub struct Relocation {
     pub release: Grasp,
     /// Least distance to another object at the new place, edge to edge, m.
     pub gap: f64,
-}
-
-/// How an object can be grasped as the table stands.
-pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
-    Layout::new(scene, model).grasp(object)
 }
 
 /// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.

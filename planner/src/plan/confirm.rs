@@ -1,7 +1,7 @@
 //! Nothing leaves unchecked.
 
 use super::answer::{Answer, Statistics, Unplanned, Verdict};
-use super::check::{Fault, FaultCode, MAX_FAULTS, Report, check};
+use super::check::{Checker, Fault, FaultCode, MAX_FAULTS, Report};
 use super::claim::Claim;
 use super::warning::Warning;
 use crate::budget::Budget;
@@ -20,12 +20,18 @@ pub enum PlanError {
     TooDense,
 }
 
-/// The verdict as far as the checker confirms it. What it could not confirm in time is not claimed.
+/// The verdict as far as the checker, that of the scene with any target, confirms it. What it could not confirm in time is not
+/// claimed.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if anything in it does not hold.
-pub(super) fn confirm(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> Result<Verdict, PlanError> {
-    let (verdict, report) = checked(scene, verdict, budget);
+pub(super) fn confirm(
+    checker: &mut Checker<'_>,
+    scene: &Scene,
+    verdict: Verdict,
+    budget: &Budget<'_>,
+) -> Result<Verdict, PlanError> {
+    let (verdict, report) = checked(checker, scene, verdict, budget);
     if report.faults.iter().any(|fault| !is_late(fault.code)) {
         return Err(PlanError::Refused(report));
     }
@@ -54,7 +60,7 @@ pub(super) fn confirm_unproven(
     if verdict == Verdict::Deadlock(None) {
         return Ok(verdict);
     }
-    let (verdict, report) = checked(scene, verdict, budget);
+    let (verdict, report) = checked(&mut Checker::new(scene), scene, verdict, budget);
     let ours = |fault: &Fault| !is_late(fault.code) && is_of_a_proof(fault.code);
     if report.faults.iter().any(ours) {
         return Err(PlanError::Refused(report));
@@ -81,12 +87,12 @@ pub(super) fn confirm_unproven(
     Ok(verdict)
 }
 
-fn checked(scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> (Verdict, Report) {
+fn checked(checker: &mut Checker<'_>, scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> (Verdict, Report) {
     let answer = Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() };
     let mut claim = Claim::of(scene, &answer);
     // A search that was cut off may have landmarks that prove more than it had time to see: not a fault, a better bound.
     claim.optimal.take_if(|optimal| !*optimal);
-    let report = check(scene, &claim, budget);
+    let report = checker.check_for(scene, &claim, budget);
     (answer.verdict, report)
 }
 
@@ -160,7 +166,7 @@ mod tests {
         let served = |bound: LowerBound| {
             let mut verdict = answer.verdict.clone();
             *verdict.bound_mut().unwrap() = bound;
-            confirm(&scene, verdict, &Budget::unlimited())
+            confirm(&mut Checker::new(&scene), &scene, verdict, &Budget::unlimited())
         };
         // As if one landmark were missing without which the bound can't be shown.
         let landmarks = proof.landmarks[..1].to_vec();

@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use super::answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
+use super::check::Checker;
 use super::check::{Fault, FaultCode, Report};
 use super::confirm::{PlanError, confirm, confirm_unproven};
 use super::couple::{Question, arrange_least, arrange_one};
@@ -41,7 +42,7 @@ pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<A
     let Planner { mut statistics, mut warnings, sought, .. } = planner;
     let before = budget.elapsed();
     let verdict = if settings.proven() {
-        confirm(scene, verdict, budget)?
+        confirm(&mut Checker::new(scene), scene, verdict, budget)?
     } else {
         let judged = judge(scene, settings, verdict, sought, &mut warnings, budget);
         confirm_unproven(scene, judged, unproven_by(settings), &mut warnings, budget)?

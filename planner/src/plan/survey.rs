@@ -1,6 +1,7 @@
 //! Every movable object as the target: logic only, no places.
 
 use super::answer::{Unplanned, Verdict};
+use super::check::Checker;
 use super::confirm::{PlanError, confirm};
 use super::planner::{graspable_now, greatest_lock};
 use crate::budget::Budget;
@@ -48,7 +49,8 @@ pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, Pl
         Err(NoBase::Interrupted) => return Ok(movable.map(timed_out).collect()),
         Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
     };
-    let mut surveyor = Surveyor { scene, base: &base, closure: &closure, locked: None };
+    let checker = Checker::new(scene);
+    let mut surveyor = Surveyor { scene, base: &base, closure: &closure, checker, locked: None };
     movable.map(|object| surveyor.entry(object, budget)).collect()
 }
 
@@ -56,6 +58,7 @@ struct Surveyor<'a> {
     scene: &'a Scene,
     base: &'a KnowledgeBase,
     closure: &'a Closure,
+    checker: Checker<'a>,
     /// What the checker says of the greatest lock, which is one and the same for every object in it.
     locked: Option<SurveyVerdict>,
 }
@@ -74,7 +77,7 @@ impl Surveyor<'_> {
         } else {
             self.derive(object, budget)
         };
-        Ok(match confirm(&scene, verdict, budget)? {
+        Ok(match confirm(&mut self.checker, &scene, verdict, budget)? {
             Verdict::Graspable(_) => {
                 SurveyEntry { object, verdict: SurveyVerdict::Graspable, lower_bound: Some(0), optimal: Some(true) }
             }
@@ -106,7 +109,7 @@ impl Surveyor<'_> {
                 let lock = greatest_lock(scene, self.base, self.closure, budget);
                 let verdict =
                     lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
-                match confirm(scene, verdict, budget)? {
+                match confirm(&mut self.checker, scene, verdict, budget)? {
                     Verdict::Deadlock(_) => SurveyVerdict::Deadlock,
                     _ => SurveyVerdict::TimedOut,
                 }

@@ -29,6 +29,16 @@ fn a_landmark_may_offer_a_choice() {
 }
 
 #[test]
+fn a_refused_proof_carries_what_was_tried() {
+    let detail = |scene: &Scene, claim: &Claim| judge(scene, claim).faults[0].detail.clone();
+    let refuted = detail(&gate().build("target"), &bound(1, &[&["west"]]));
+    assert!(refuted.starts_with("landmark 0 can be left as it stands: the target is free at yaw "), "{refuted}");
+    assert!(refuted.contains("'east'") && !refuted.contains("'west'"), "{refuted}");
+    let free = detail(&locked(), &deadlock(&["target", "north", "south", "east", "far"], &LOCK));
+    assert!(free.starts_with("can be grasped at yaw ") && free.ends_with("though all of 'blocked' stand"), "{free}");
+}
+
+#[test]
 fn a_landmark_is_judged_by_the_table_as_it_is_at_the_start() {
     // So wide a band that one disc near the target blocks it altogether.
     let scene = Builder::new(2).yaw_tolerance(1.5).disc("t", 1.0, 1.0, 0.05).disc("far", 0.3, 0.3, 0.05).build("t");

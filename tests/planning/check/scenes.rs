@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::{FaultCode, Report, check};
+use singulate_planner::plan::check::{Checker, FaultCode, Report};
 use singulate_planner::plan::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
@@ -87,8 +87,12 @@ pub(crate) fn ids(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 
+/// What the checker says, the first time and, with all that it has learnt by then, the second.
 pub(crate) fn judge(scene: &Scene, claim: &Claim) -> Report {
-    check(scene, claim, &Budget::unlimited())
+    let mut checker = Checker::new(scene);
+    let report = checker.check(claim, &Budget::unlimited());
+    assert_eq!(checker.check(claim, &Budget::unlimited()), report);
+    report
 }
 
 /// The kinds of fault found, each once, in the order in which they came.

@@ -3,13 +3,16 @@
 use std::collections::HashMap;
 
 use crate::budget::Interrupted;
-use crate::scene::ObjectIndex;
+use crate::scene::{ObjectIndex, Scene};
 
-use super::chain::Chain;
+use super::chain::{Chain, Freed};
 use super::fault::{FaultCode, Faults};
 use super::hitting::{MOST_KEPT, least_hits};
 use super::meter::Meter;
-use super::names::Names;
+use super::names::{Names, relocatable};
+
+/// How many of the lifted objects a fault names.
+const MAX_NAMED: usize = 5;
 
 /// The proven bound.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,6 +33,7 @@ struct Landmark {
 
 /// Try the landmarks, smallest first, and count what the sound ones prove.
 pub(super) fn prove(
+    scene: &Scene,
     stated: &[Vec<String>],
     names: &Names<'_>,
     chain: &mut Chain<'_>,
@@ -37,9 +41,9 @@ pub(super) fn prove(
     meter: &mut Meter<'_>,
 ) -> Proof {
     let (mut sound, mut complete) = (Sound::default(), true);
-    let tried = readable(stated, names, faults, meter).and_then(|landmarks| {
+    let tried = readable(scene, stated, names, faults, meter).and_then(|landmarks| {
         for landmark in landmarks {
-            sound.try_one(landmark, chain, faults, meter)?;
+            sound.try_one(scene, landmark, chain, faults, meter)?;
         }
         Ok(())
     });
@@ -51,6 +55,7 @@ pub(super) fn prove(
 
 /// The landmarks whose members exist and could be moved, smallest first.
 fn readable(
+    scene: &Scene,
     stated: &[Vec<String>],
     names: &Names<'_>,
     faults: &mut Faults,
@@ -59,7 +64,7 @@ fn readable(
     let mut landmarks = Vec::new();
     for (at, ids) in stated.iter().enumerate() {
         meter.spend(1 + ids.len() / 8)?;
-        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(at, id, names, faults)).collect();
+        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(scene, at, id, names, faults)).collect();
         let Some(mut members) = members else { continue };
         members.sort_unstable();
         members.dedup();
@@ -73,14 +78,28 @@ fn readable(
     Ok(landmarks)
 }
 
-fn member(at: usize, id: &str, names: &Names<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
+fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
     let object = names.known(id, None, faults)?;
-    if names.relocatable(object) {
+    if relocatable(scene, object) {
         return Some(object);
     }
     let detail = || format!("landmark {at} holds it, and no plan relocates the target or a fixed object");
     faults.of_object(FaultCode::BadLandmark, id, detail);
     None
+}
+
+/// How the target is freed, in words.
+fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
+    let named: Vec<_> =
+        lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();
+    let more = match lifted.len() - named.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    match named.as_slice() {
+        [] => format!("the target is free at yaw {yaw:.9} rad"),
+        _ => format!("the target is free at yaw {yaw:.9} rad once {}{more} are lifted", named.join(", ")),
+    }
 }
 
 /// The landmarks found sound, none within another.
@@ -95,6 +114,7 @@ impl Sound {
     /// A landmark is sound if the target stays blocked while its members are held.
     fn try_one(
         &mut self,
+        scene: &Scene,
         landmark: Landmark,
         chain: &mut Chain<'_>,
         faults: &mut Faults,
@@ -104,8 +124,8 @@ impl Sound {
         if self.covers(&members, meter)? {
             return Ok(());
         }
-        if chain.frees_target(&members, meter)? {
-            let detail = || format!("the target can be freed without moving any member of landmark {at}");
+        if let Some(freed) = chain.frees_target(scene, &members, meter)? {
+            let detail = || format!("landmark {at} can be left as it stands: {}", way(scene, &freed));
             faults.of_answer(FaultCode::LandmarkRefuted, detail);
             return Ok(());
         }

@@ -93,8 +93,8 @@ impl Lock {
         for member in self.members.iter().filter(|member| !scene.object(**member).fixed()) {
             let ring = rings.ring(*member, meter)?;
             meter.spend(1 + ring.len() / 64)?;
-            if rings.is_free(&ring, |object| self.holds(object)) {
-                let detail = || format!("has a free yaw though all of '{}' stand", self.name);
+            if let Some(yaw) = rings.free_yaw(&ring, |object| self.holds(object)) {
+                let detail = || format!("can be grasped at yaw {yaw:.9} rad though all of '{}' stand", self.name);
                 faults.of_object(FaultCode::LockMemberFree, scene.object(*member).id(), detail);
             }
         }

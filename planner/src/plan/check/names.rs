@@ -7,19 +7,15 @@ use crate::scene::{ObjectIndex, Scene};
 use super::fault::{FaultCode, Faults};
 
 /// The objects of a scene by id: an answer may hold a million ids, and a scan for each would be quadratic.
-pub(super) struct Names<'a> {
-    scene: &'a Scene,
-    by_id: HashMap<&'a str, ObjectIndex>,
-}
+pub(super) struct Names<'s>(HashMap<&'s str, ObjectIndex>);
 
-impl<'a> Names<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        let by_id = scene.indices().map(|object| (scene.object(object).id(), object)).collect();
-        Self { scene, by_id }
+impl<'s> Names<'s> {
+    pub(super) fn new(scene: &'s Scene) -> Self {
+        Self(scene.indices().map(|object| (scene.object(object).id(), object)).collect())
     }
 
     pub(super) fn find(&self, id: &str) -> Option<ObjectIndex> {
-        self.by_id.get(id).copied()
+        self.0.get(id).copied()
     }
 
     /// The object, or a fault.
@@ -30,9 +26,9 @@ impl<'a> Names<'a> {
         }
         found
     }
+}
 
-    /// True for what a plan may move: neither fixed nor the target.
-    pub(super) fn relocatable(&self, object: ObjectIndex) -> bool {
-        object != self.scene.target() && !self.scene.object(object).fixed()
-    }
+/// True for an object that a pick-and-place plan may move: neither fixed nor the target.
+pub(super) fn relocatable(scene: &Scene, object: ObjectIndex) -> bool {
+    object != scene.target() && !scene.object(object).fixed()
 }

@@ -1,7 +1,10 @@
-//! Which discs are near: a tree of boxes over every place where a disc stands at the start or is put by a step.
+//! Which discs are near: a tree of boxes over the objects at the start, and one over the places that steps put them to.
 //!
-//! All places are known before the replay begins, so the tree never changes; a caller skips the places that are empty at
-//! its moment. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
+//! All places are known before the replay begins, so no tree ever changes; a caller skips the places that are empty at its
+//! moment. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
+
+use std::collections::HashMap;
+use std::rc::Rc;
 
 use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
@@ -9,7 +12,7 @@ use smallvec::SmallVec;
 use crate::plan::claim::ClaimedRelocation;
 use crate::scene::{COORDINATE_RANGE, Disc, ObjectIndex, Scene};
 
-use super::names::Names;
+use super::names::{Names, relocatable};
 
 /// The number of a place. The n-th object stands on place n at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,14 +20,36 @@ pub(super) struct PlaceIndex(usize);
 
 /// Every place of the start and of the stated steps.
 pub(super) struct Places {
-    discs: Vec<Disc>,
+    start: Rc<Tree>,
+    steps: Tree,
+    /// Whose the places of the steps are.
     owners: Vec<ObjectIndex>,
-    /// Objects of the scene: the places of the start come first.
-    objects: usize,
     /// For each step its new place; `None` where the step can't be carried out.
     of_steps: Vec<Option<PlaceIndex>>,
+}
+
+/// Where each object stands at some moment.
+#[derive(Default)]
+pub(super) struct Standing {
+    /// The places of those that have been moved.
+    moved: HashMap<ObjectIndex, PlaceIndex>,
+}
+
+impl Standing {
+    pub(super) fn place(&self, object: ObjectIndex) -> PlaceIndex {
+        self.moved.get(&object).copied().unwrap_or(PlaceIndex(object.get()))
+    }
+
+    pub(super) fn put(&mut self, object: ObjectIndex, place: PlaceIndex) {
+        self.moved.insert(object, place);
+    }
+}
+
+/// Discs by nearness.
+pub(super) struct Tree {
+    discs: Vec<Disc>,
     boxes: Vec<Bounds>,
-    /// Place numbers, so that each box holds a run of them.
+    /// Numbers of discs, so that each box holds a run of them.
     order: Vec<usize>,
 }
 
@@ -46,49 +71,61 @@ pub(super) fn resolvable(point: Point2<f64>) -> bool {
 }
 
 impl Places {
-    pub(super) fn new(scene: &Scene, steps: &[ClaimedRelocation], names: &Names<'_>) -> Self {
-        let mut discs: Vec<Disc> = scene.objects().iter().map(|object| object.disc()).collect();
-        let mut owners: Vec<ObjectIndex> = scene.indices().collect();
-        let of_steps = steps
-            .iter()
-            .map(|step| {
-                let object = names.find(&step.object)?;
-                (names.relocatable(object) && resolvable(step.to)).then(|| {
-                    discs.push(scene.object(object).disc().at(step.to));
-                    owners.push(object);
-                    PlaceIndex(discs.len() - 1)
-                })
+    /// `start` holds the scene's objects.
+    pub(super) fn new(scene: &Scene, start: &Rc<Tree>, steps: &[ClaimedRelocation], names: &Names<'_>) -> Self {
+        let (mut discs, mut owners) = (Vec::new(), Vec::new());
+        let of_steps = steps.iter().map(|step| {
+            let object = names.find(&step.object)?;
+            (relocatable(scene, object) && resolvable(step.to)).then(|| {
+                discs.push(scene.object(object).disc().at(step.to));
+                owners.push(object);
+                PlaceIndex(start.discs.len() + discs.len() - 1)
             })
-            .collect();
-        let order = (0..discs.len()).collect();
-        let mut places = Self { discs, owners, objects: scene.objects().len(), of_steps, boxes: Vec::new(), order };
-        places.divide(0..places.order.len());
-        places
+        });
+        let of_steps = of_steps.collect();
+        Self { start: Rc::clone(start), steps: Tree::new(discs), owners, of_steps }
     }
 
     /// The disc on a place.
-    pub(super) fn disc(&self, place: PlaceIndex) -> Disc {
-        self.discs[place.0]
+    pub(super) fn disc(&self, PlaceIndex(place): PlaceIndex) -> Disc {
+        let start = &self.start.discs;
+        start.get(place).copied().unwrap_or_else(|| self.steps.discs[place - start.len()])
     }
 
     /// Whose place it is.
-    pub(super) fn owner(&self, place: PlaceIndex) -> ObjectIndex {
-        self.owners[place.0]
-    }
-
-    /// Where each object stands at the start.
-    pub(super) fn at_start(&self) -> Vec<PlaceIndex> {
-        (0..self.objects).map(PlaceIndex).collect()
-    }
-
-    /// True for a place of the start.
-    pub(super) fn is_start(&self, place: PlaceIndex) -> bool {
-        place.0 < self.objects
+    pub(super) fn owner(&self, PlaceIndex(place): PlaceIndex) -> ObjectIndex {
+        place.checked_sub(self.start.discs.len()).map_or_else(|| ObjectIndex::new(place), |step| self.owners[step])
     }
 
     /// The new place of a step, if it can be carried out.
     pub(super) fn of_step(&self, step: usize) -> Option<PlaceIndex> {
         self.of_steps[step]
+    }
+
+    /// Visit every place whose disc comes nearer than `reach` to `centre` (edge to point, m).
+    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(PlaceIndex)) {
+        self.start.within(centre, reach, |at| visit(PlaceIndex(at)));
+        self.steps.within(centre, reach, |at| visit(PlaceIndex(self.start.discs.len() + at)));
+    }
+
+    /// The least distance from `centre` to the edge of a disc on a place that `counts`, m; infinite if there is none.
+    pub(super) fn least_gap(&self, centre: Point2<f64>, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
+        let at_start = self.start.least_gap(centre, |at| counts(PlaceIndex(at)));
+        at_start.min(self.steps.least_gap(centre, |at| counts(PlaceIndex(self.start.discs.len() + at))))
+    }
+}
+
+impl Tree {
+    pub(super) fn new(discs: Vec<Disc>) -> Self {
+        let order = (0..discs.len()).collect();
+        let mut tree = Self { discs, boxes: Vec::new(), order };
+        tree.divide(0..tree.order.len());
+        tree
+    }
+
+    /// The objects of a scene where they stand at the start: the n-th disc is the n-th object's.
+    pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
+        Rc::new(Self::new(scene.objects().iter().map(|object| object.disc()).collect()))
     }
 
     /// Box the run and divide it at the median of its longer side. Returns the box's number. The depth is logarithmic
@@ -100,7 +137,7 @@ impl Places {
         self.boxes.push(bounds);
         if run.len() > LEAF {
             let discs = &self.discs;
-            let key = |place: &usize| if wide { discs[*place].centre.x } else { discs[*place].centre.y };
+            let key = |disc: &usize| if wide { discs[*disc].centre.x } else { discs[*disc].centre.y };
             let half = run.len() / 2;
             self.order[run.clone()].select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
             let middle = run.start + half;
@@ -113,7 +150,7 @@ impl Places {
         let (far, near) =
             (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
         let mut bounds = Bounds { min: far, max: near, largest_radius: 0.0, run: run.clone(), children: None };
-        for disc in self.order[run].iter().map(|&place| self.discs[place]) {
+        for disc in self.order[run].iter().map(|&at| self.discs[at]) {
             bounds.min = bounds.min.inf(&disc.centre);
             bounds.max = bounds.max.sup(&disc.centre);
             bounds.largest_radius = bounds.largest_radius.max(disc.radius);
@@ -121,8 +158,8 @@ impl Places {
         bounds
     }
 
-    /// Visit every place whose disc comes nearer than `reach` to `centre` (edge to point, m).
-    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(PlaceIndex)) {
+    /// Visit every disc that comes nearer than `reach` to `centre` (edge to point, m).
+    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(usize)) {
         let mut open: SmallVec<[usize; 32]> = SmallVec::from_slice(&[0]);
         while let Some(at) = open.pop() {
             let bounds = &self.boxes[at];
@@ -133,17 +170,17 @@ impl Places {
                 open.extend(children);
                 continue;
             }
-            for &place in &self.order[bounds.run.clone()] {
-                let disc = self.discs[place];
+            for &at in &self.order[bounds.run.clone()] {
+                let disc = self.discs[at];
                 if (disc.centre - centre).norm() - disc.radius < reach {
-                    visit(PlaceIndex(place));
+                    visit(at);
                 }
             }
         }
     }
 
-    /// The least distance from `centre` to the edge of a disc on a place that `counts`, m; infinite if there is none.
-    pub(super) fn least_gap(&self, centre: Point2<f64>, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
+    /// The least distance from `centre` to the edge of a disc that `counts`, m; infinite if there is none.
+    fn least_gap(&self, centre: Point2<f64>, counts: impl Fn(usize) -> bool) -> f64 {
         let mut least = f64::INFINITY;
         let mut open: SmallVec<[(usize, f64); 32]> = SmallVec::from_slice(&[(0, f64::NEG_INFINITY)]);
         while let Some((at, bound)) = open.pop() {
@@ -158,8 +195,8 @@ impl Places {
                 open.extend(pair);
                 continue;
             }
-            for &place in self.order[bounds.run.clone()].iter().filter(|place| counts(PlaceIndex(**place))) {
-                let disc = self.discs[place];
+            for &at in self.order[bounds.run.clone()].iter().filter(|at| counts(**at)) {
+                let disc = self.discs[at];
                 least = least.min((disc.centre - centre).norm() - disc.radius);
             }
         }
@@ -196,18 +233,17 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_scan_finds() {
         let scene = crowd();
-        let names = Names::new(&scene);
-        let places = Places::new(&scene, &[], &names);
+        let start = Tree::of_start(&scene);
         for n in 0..100_u32 {
             let centre = Point2::new(f64::from(n * 37 % 101) / 10.0, f64::from(n * 53 % 97) / 10.0);
             let gap = |disc: Disc| (disc.centre - centre).norm() - disc.radius;
             let reach = 0.05 * f64::from(n % 20);
             let mut found = Vec::new();
-            places.within(centre, reach, |place| found.push(place.0));
+            start.within(centre, reach, |at| found.push(at));
             found.sort_unstable();
             let scan = scene.objects().iter().enumerate().filter(|(_, object)| gap(object.disc()) < reach);
             assert_eq!(found, scan.map(|(at, _)| at).collect::<Vec<_>>());
-            let least = places.least_gap(centre, |place| place.0 % 3 == 0);
+            let least = start.least_gap(centre, |at| at % 3 == 0);
             let scan = scene.objects().iter().step_by(3).map(|object| gap(object.disc()));
             assert_eq!(least, scan.fold(f64::INFINITY, f64::min));
         }

@@ -1,33 +1,29 @@
 //! Whether the stated derivation frees the target: its objects can be lifted in this order, places left aside.
 
 use crate::budget::Interrupted;
-use crate::plan::claim::Claim;
 use crate::scene::{ObjectIndex, Scene};
 
 use super::fault::{FaultCode, Faults};
 use super::meter::Meter;
-use super::names::Names;
-use super::near::Places;
-use super::rings::{Leaning, Rings};
+use super::names::{Names, relocatable};
+use super::rings::Rings;
 
-struct Lifting<'a> {
+struct Lifting<'a, 's> {
     scene: &'a Scene,
-    names: &'a Names<'a>,
-    rings: Rings<'a>,
+    names: &'a Names<'s>,
+    rings: &'a mut Rings<'s>,
     lifted: Vec<bool>,
 }
 
-/// Lift the needed objects, then look at the target.
-pub(super) fn check(
+/// Lift the needed objects, then look at the target. The rings lean to what is free.
+pub(super) fn check<'s>(
     scene: &Scene,
-    places: &Places,
-    names: &Names<'_>,
-    claim: &Claim,
+    names: &Names<'s>,
+    ids: &[String],
+    rings: &mut Rings<'s>,
     faults: &mut Faults,
     meter: &mut Meter<'_>,
 ) -> Result<(), Interrupted> {
-    let Some(ids) = &claim.needed else { return Ok(()) };
-    let rings = Rings::new(scene, places, Leaning::Free);
     let mut lifting = Lifting { scene, names, rings, lifted: vec![false; scene.objects().len()] };
     let checked = lifting.all(ids, faults, meter);
     if checked.is_err() {
@@ -36,20 +32,20 @@ pub(super) fn check(
     checked
 }
 
-impl Lifting<'_> {
+impl Lifting<'_, '_> {
     fn all(&mut self, ids: &[String], faults: &mut Faults, meter: &mut Meter<'_>) -> Result<(), Interrupted> {
         for id in ids {
             meter.spend(1)?;
             let Some(object) = self.names.known(id, None, faults) else { continue };
             let mut wrong = |why: &str| faults.of_object(FaultCode::WrongNeeded, id, || why.to_owned());
-            if !self.names.relocatable(object) {
+            if !relocatable(self.scene, object) {
                 wrong("can't be relocated");
             } else if self.lifted[object.get()] {
                 wrong("is named twice");
             } else if !self.is_free(object, meter)? {
                 wrong("has no free yaw when its turn comes");
             }
-            self.lifted[object.get()] = self.names.relocatable(object);
+            self.lifted[object.get()] = relocatable(self.scene, object);
         }
         if !self.is_free(self.scene.target(), meter)? {
             let id = self.scene.object(self.scene.target()).id();
@@ -61,6 +57,6 @@ impl Lifting<'_> {
     fn is_free(&mut self, object: ObjectIndex, meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
         let ring = self.rings.ring(object, meter)?;
         meter.spend(ring.len() / 64)?;
-        Ok(self.rings.is_free(&ring, |other| !self.lifted[other.get()]))
+        Ok(self.rings.free_yaw(&ring, |other| !self.lifted[other.get()]).is_some())
     }
 }

@@ -8,14 +8,13 @@ use crate::scene::{Disc, ObjectIndex, Rectangle, Scene};
 use super::TOLERANCE;
 use super::fault::{FaultCode, Faults, figure};
 use super::meter::Meter;
-use super::near::{PlaceIndex, Places};
+use super::near::{PlaceIndex, Places, Standing};
 
 /// A disc about to be set down, while the others stand on `standing`.
 pub(super) struct Landing<'a> {
     pub(super) scene: &'a Scene,
     pub(super) places: &'a Places,
-    /// Where each object stands.
-    pub(super) standing: &'a [PlaceIndex],
+    pub(super) standing: &'a Standing,
     pub(super) step: usize,
     pub(super) object: ObjectIndex,
     pub(super) to: Disc,
@@ -85,7 +84,7 @@ impl Landing<'_> {
     /// True for a place on which another object stands now.
     fn taken(&self, place: PlaceIndex) -> bool {
         let owner = self.places.owner(place);
-        owner != self.object && self.standing[owner.get()] == place
+        owner != self.object && self.standing.place(owner) == place
     }
 
     /// Every other object is at least the margin away. Pairs that stood closer at the start need only what they had, as

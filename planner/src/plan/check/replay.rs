@@ -13,7 +13,7 @@ use super::fault::{FaultCode, Faults, figure};
 use super::finger::Finger;
 use super::meter::Meter;
 use super::names::Names;
-use super::near::{PlaceIndex, Places, resolvable};
+use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
 
 /// The largest yaw whose digits still resolve 1e-9 rad after whole turns are taken off.
@@ -23,8 +23,7 @@ struct Replay<'a> {
     scene: &'a Scene,
     places: &'a Places,
     names: &'a Names<'a>,
-    /// Where each object stands now.
-    standing: Vec<PlaceIndex>,
+    standing: Standing,
     faults: &'a mut Faults,
     meter: Meter<'a>,
 }
@@ -39,7 +38,7 @@ pub(super) fn replay<'a>(
     faults: &'a mut Faults,
     meter: Meter<'a>,
 ) -> Result<(), Interrupted> {
-    let mut replay = Replay { scene, places, names, standing: places.at_start(), faults, meter };
+    let mut replay = Replay { scene, places, names, standing: Standing::default(), faults, meter };
     let replayed = replay.run(claim);
     if replayed.is_err() {
         replay.faults.of_answer(FaultCode::ReplayUnconfirmed, || "time ran out before all steps were replayed".into());
@@ -87,7 +86,7 @@ impl Replay<'_> {
         let landing = Landing { scene, places, standing, step: at, object, to: disc };
         landing.check(step.gap, self.faults, &mut self.meter)?;
         self.grasp(FaultCode::ReleaseBlocked, Some(at), object, disc, step.release)?;
-        self.standing[object.get()] = to;
+        self.standing.put(object, to);
         Ok(())
     }
 
@@ -106,7 +105,7 @@ impl Replay<'_> {
     }
 
     fn disc(&self, object: ObjectIndex) -> Disc {
-        self.places.disc(self.standing[object.get()])
+        self.places.disc(self.standing.place(object))
     }
 
     fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Point2<f64>) {
@@ -154,7 +153,7 @@ impl Replay<'_> {
         self.places.within(disc.centre, finger.corner_distance() + gripper.margin(), |place| {
             visited += 1;
             let owner = self.places.owner(place);
-            if owner != object && self.standing[owner.get()] == place {
+            if owner != object && self.standing.place(owner) == place {
                 near.push(owner);
             }
         });

@@ -7,7 +7,7 @@ use crate::scene::{ObjectIndex, Scene};
 
 use super::finger::Finger;
 use super::meter::Meter;
-use super::near::Places;
+use super::near::Tree;
 use super::yaws::blocked_yaws;
 
 /// Which way a case is decided that rounding leaves open.
@@ -60,20 +60,25 @@ impl Ring {
     }
 }
 
-/// The rings of a scene, each made when it is first asked for.
-pub(super) struct Rings<'a> {
-    scene: &'a Scene,
-    places: &'a Places,
+/// The rings of a scene, each made when it is first asked for. They are the same whatever the target is.
+pub(super) struct Rings<'s> {
+    scene: &'s Scene,
+    start: Rc<Tree>,
     leaning: Leaning,
     made: Vec<Option<Rc<Ring>>>,
     /// For each object those whose ring, if made, holds it.
     watchers: Vec<Vec<ObjectIndex>>,
 }
 
-impl<'a> Rings<'a> {
-    pub(super) fn new(scene: &'a Scene, places: &'a Places, leaning: Leaning) -> Self {
+impl<'s> Rings<'s> {
+    pub(super) fn new(scene: &'s Scene, start: &Rc<Tree>, leaning: Leaning) -> Self {
         let count = scene.objects().len();
-        Self { scene, places, leaning, made: vec![None; count], watchers: vec![Vec::new(); count] }
+        Self { scene, start: Rc::clone(start), leaning, made: vec![None; count], watchers: vec![Vec::new(); count] }
+    }
+
+    /// How many objects the scene has.
+    pub(super) fn count(&self) -> usize {
+        self.made.len()
     }
 
     /// The ring of an object.
@@ -102,16 +107,13 @@ impl<'a> Rings<'a> {
         let finger = Finger::new(gripper, disc.radius);
         let reach = (finger.corner_distance() + gripper.margin()) * (1.0 + 4.0 * LENGTH_LEANING);
         let mut near = Vec::new();
-        self.places.within(disc.centre, reach, |place| near.push(place));
+        self.start.within(disc.centre, reach, |at| near.push(ObjectIndex::new(at)));
         meter.spend(1)?;
         let mut shades = Vec::new();
-        for place in near {
-            let by = self.places.owner(place);
-            if by == object || !self.places.is_start(place) {
-                continue;
-            }
+        for by in near.into_iter().filter(|by| *by != object) {
             meter.spend(1)?;
-            let (obstacle, rho) = (self.places.disc(place), self.places.disc(place).radius + gripper.margin());
+            let obstacle = self.scene.object(by).disc();
+            let rho = obstacle.radius + gripper.margin();
             let apart = obstacle.centre - disc.centre;
             let rho = rho + self.leaning.sign() * LENGTH_LEANING * (rho + apart.norm());
             let yaws = blocked_yaws(&finger, gripper.period(), apart, rho);
@@ -121,20 +123,27 @@ impl<'a> Rings<'a> {
         Ok(Ring { shades })
     }
 
-    /// True if the object of this ring has a free interval of yaws that counts, while those obstacles stand for which
-    /// `stands` is true. Where nothing blocks every yaw will do, whatever the tolerance.
-    pub(super) fn is_free(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> bool {
+    /// The middle of the widest interval of yaws (rad, in one period from 0) that is free while those obstacles stand for
+    /// which `stands` is true; `None` where no free interval counts. Where nothing blocks every yaw will do, whatever the
+    /// tolerance.
+    pub(super) fn free_yaw(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<f64> {
         let gripper = self.scene.gripper();
         let mut shades = ring.shades.iter().filter(|shade| stands(shade.by));
-        let Some(first) = shades.next() else { return true };
-        let (mut covered, mut widest) = (first.hi, 0.0_f64);
+        let Some(first) = shades.next() else { return Some(0.0) };
+        let (mut covered, mut widest, mut ends) = (first.hi, 0.0_f64, 0.0);
+        let mut interval = |covered: f64, lo: f64| {
+            if lo - covered > widest {
+                (widest, ends) = (lo - covered, lo);
+            }
+        };
         for shade in shades {
-            widest = widest.max(shade.lo - covered);
+            interval(covered, shade.lo);
             covered = covered.max(shade.hi);
         }
         // The interval round the period's end.
-        widest = widest.max(first.lo + gripper.period() - covered);
-        widest > gripper.min_free_width() + self.leaning.sign() * WIDTH_LEANING
+        interval(covered, first.lo + gripper.period());
+        let counts = widest > gripper.min_free_width() + self.leaning.sign() * WIDTH_LEANING;
+        counts.then(|| (ends - widest / 2.0).rem_euclid(gripper.period()))
     }
 }
 
@@ -144,7 +153,6 @@ mod tests {
 
     use super::*;
     use crate::budget::Budget;
-    use crate::plan::check::names::Names;
     use crate::scene::scenes::TestScene;
 
     /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
@@ -171,9 +179,7 @@ mod tests {
         ] {
             let x = 0.5 + (finger.corner_distance() + 0.08) * (1.0 + off);
             let scene = TestScene::new(3).disc("t", 0.5, 0.5, 0.05).disc("o", x, 0.5, 0.08).build("t");
-            let names = Names::new(&scene);
-            let places = Places::new(&scene, &[], &names);
-            let mut rings = Rings::new(&scene, &places, leaning);
+            let mut rings = Rings::new(&scene, &Tree::of_start(&scene), leaning);
             let ring = rings.ring(scene.target(), &mut Meter::new(&Budget::unlimited())).unwrap();
             assert_eq!(ring.len() > 0, blocks, "{off:e} {leaning:?}");
         }
@@ -188,14 +194,13 @@ mod tests {
             let mut discs = vec![(0.5, 0.5, 0.05)];
             discs.extend(others);
             let scene = TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs).build("d0");
-            let names = Names::new(&scene);
-            let places = Places::new(&scene, &[], &names);
+            let start = Tree::of_start(&scene);
             for leaning in [Leaning::Blocked, Leaning::Free] {
-                let mut rings = Rings::new(&scene, &places, leaning);
+                let mut rings = Rings::new(&scene, &start, leaning);
                 let ring = rings.ring(scene.target(), &mut Meter::new(&Budget::unlimited())).unwrap();
                 // The middle of a free interval is at most half a sample off.
                 let half_sample = scene.gripper().period() / 1000.0 + 1e-9;
-                if rings.is_free(&ring, |_| true) {
+                if rings.free_yaw(&ring, |_| true).is_some() {
                     prop_assert!(some_band_is_free(&scene, tolerance - half_sample));
                 } else {
                     prop_assert!(!some_band_is_free(&scene, tolerance + 1e-9));
