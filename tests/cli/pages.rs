@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use singulate::config::{Config, SETTINGS, Setting};
+use singulate::keys::Keys;
+
+use crate::file;
 
 const SCENE: &str = include_str!("../../docs/scene.md");
 const OPERATING: &str = "docs/operating.md";
@@ -138,6 +141,13 @@ fn git_ignores_every_key_and_certificate_that_the_pages_make() {
         let kind = format!("*.{}", file.rsplit('.').next().unwrap());
         assert!(ignored.contains(&file) || ignored.contains(&kind.as_str()), "{file}");
     }
+}
+
+#[test]
+fn the_keys_file_that_is_shown_is_sound() {
+    let page = read(&root().join(OPERATING));
+    let shown = page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    Keys::open(&file("shown-keys.toml", shown)).unwrap();
 }
 
 /// What a setting may be: its range where it is a number, the help's placeholder where it is not.
