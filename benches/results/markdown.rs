@@ -28,6 +28,16 @@ fn broken(paragraph: &str) -> String {
     text
 }
 
+/// A table of contents: a link to each heading of the text.
+pub(crate) fn contents(text: &str) -> String {
+    let headings = text.lines().filter(|line| line.starts_with("##")).map(|line| line.trim_start_matches(['#', ' ']));
+    let anchor = |heading: &str| {
+        heading.to_lowercase().replace(|c: char| !c.is_alphanumeric() && !" -_".contains(c), "").replace(' ', "-")
+    };
+    let links: Vec<String> = headings.map(|heading| format!("[{heading}](#{})", anchor(heading))).collect();
+    format!("Contents: {}", links.join(" · "))
+}
+
 /// A table: rows of cells, of which the first is the head.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));

@@ -20,15 +20,16 @@ pub(crate) fn files() -> Vec<(&'static str, String)> {
     let (table1, table2, peers): (Table1, Table2, Peers) =
         (read("table1.json"), read("table2.json"), read("peers.json"));
     let sections = [
-        HEAD.to_owned() + &written_by(&table1, &table2),
+        written_by(&table1, &table2),
         peers_page::section(&peers),
         tables_page::table1(&table1),
         tables_page::table2(&table2),
         tables_page::apart(&table1, &table2),
     ];
     let drawn = "finite figures";
+    let text = sections.join("\n");
     vec![
-        ("docs/RESULTS.md", wrapped(&sections.join("\n"))),
+        ("docs/RESULTS.md", wrapped(&format!("{HEAD}{}\n\n{text}", markdown::contents(&text)))),
         ("docs/results/peers.svg", plots::peers(&peers).expect(drawn)),
         ("docs/results/deadlocks.svg", table_plots::deadlocks(&table1).expect(drawn)),
         ("docs/results/times.svg", table_plots::times(&table1).expect(drawn)),

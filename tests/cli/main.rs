@@ -11,6 +11,7 @@ mod experiments;
 mod hard;
 mod keys;
 mod log;
+mod pages;
 mod readme;
 mod scenes;
 mod service;

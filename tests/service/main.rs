@@ -4,6 +4,7 @@
 
 mod bodies;
 mod browsers;
+mod calls;
 mod connections;
 mod described;
 mod document;

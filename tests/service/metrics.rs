@@ -97,10 +97,10 @@ fn every_family_is_described_and_counts_what_is_recorded() {
     let metrics = everything();
     let open = (metrics.connection(), metrics.stream(), metrics.stream());
     let families = parse(&metrics.text());
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../docs/operating.md");
     for (name, Family { kind, .. }) in &families {
         let shown = if kind == "counter" { format!("{name}_total") } else { name.clone() };
-        assert!(readme.contains(&format!("| `{shown}` | {kind} |")), "{shown} is not in the README");
+        assert!(page.contains(&format!("| `{shown}` | {kind} |")), "{shown} is not in docs/operating.md");
     }
     assert_eq!(families.len(), 13);
     let one = |family: &str, label: &str| count(&families, &format!("singulate_{family}"), &[label]);

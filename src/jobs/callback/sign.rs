@@ -64,7 +64,7 @@ mod tests {
 
     use super::*;
 
-    const README: &str = include_str!("../../../README.md");
+    const PAGE: &str = include_str!("../../../docs/jobs.md");
 
     fn hex(digest: [u8; 32]) -> String {
         digest.iter().map(|byte| format!("{byte:02x}")).collect()
@@ -117,13 +117,13 @@ mod tests {
         }
     }
 
-    /// Runs the README's check on a message; true if it takes it.
-    fn readme_takes(headers: &str, body: &str) -> bool {
-        let (_, rest) = README.split_once("```python\n").unwrap();
+    /// Runs the documented check on a message; true if it takes it.
+    fn documented_receiver_takes(headers: &str, body: &str) -> bool {
+        let (_, rest) = PAGE.split_once("```python\n").unwrap();
         let example = rest.split_once("```").unwrap().0;
         let script = format!("{example}\nprint(is_ours({headers}, b'{body}', b'0123456789abcdef'))\n");
         let python = Command::new("python3").arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut python = python.expect("the README's example of a receiver needs python3");
+        let mut python = python.expect("the example of a receiver in docs/jobs.md needs python3");
         python.stdin.take().unwrap().write_all(script.as_bytes()).unwrap();
         let output = python.wait_with_output().unwrap();
         assert!(output.status.success());
@@ -131,15 +131,15 @@ mod tests {
     }
 
     #[test]
-    fn the_readmes_receiver_takes_our_messages_and_no_others() {
+    fn the_documented_receiver_takes_our_messages_and_no_others() {
         let secret: CallbackSecret = "0123456789abcdef".parse().unwrap();
         let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap().as_secs();
         let headers =
             |at: u64, signature: &str| format!("{{'{TIMESTAMP_HEADER}': '{at}', '{SIGNATURE_HEADER}': '{signature}'}}");
         let signed = |at: u64| secret.sign(&at.to_string(), b"{}");
-        assert!(readme_takes(&headers(now, &signed(now)), "{}"));
-        assert!(!readme_takes(&headers(now, &signed(now)), "{ }"));
-        assert!(!readme_takes(&headers(now, &signed(now - 1)), "{}"));
-        assert!(!readme_takes(&headers(now - 3600, &signed(now - 3600)), "{}"));
+        assert!(documented_receiver_takes(&headers(now, &signed(now)), "{}"));
+        assert!(!documented_receiver_takes(&headers(now, &signed(now)), "{ }"));
+        assert!(!documented_receiver_takes(&headers(now, &signed(now - 1)), "{}"));
+        assert!(!documented_receiver_takes(&headers(now - 3600, &signed(now - 3600)), "{}"));
     }
 }
