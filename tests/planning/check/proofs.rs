@@ -33,7 +33,7 @@ fn a_refused_proof_carries_what_was_tried() {
     let detail = |scene: &Scene, claim: &Claim| judge(scene, claim).faults[0].detail.clone();
     let refuted = detail(&gate().build("target"), &bound(1, &[&["west"]]));
     assert!(refuted.starts_with("landmark 0 can be left as it stands: the target is free at yaw "), "{refuted}");
-    assert!(refuted.contains("'east'") && !refuted.contains("'west'"), "{refuted}");
+    assert!(refuted.contains("'north'") && !refuted.contains("'west'"), "{refuted}");
     let free = detail(&locked(), &deadlock(&["target", "north", "south", "east", "far"], &LOCK));
     assert!(free.starts_with("can be grasped at yaw ") && free.ends_with("though all of 'blocked' stand"), "{free}");
 }
