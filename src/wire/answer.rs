@@ -9,8 +9,8 @@ use utoipa::ToSchema;
 
 use super::finding;
 use super::glance::Glance;
+use super::plan_request::PlanRequest;
 use super::problem::WarningItem;
-use super::request::PlanRequest;
 use singulate_planner::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
 use singulate_planner::scene::{ObjectIndex, Scene};
 

@@ -3,9 +3,12 @@
 use nalgebra::Point2;
 
 use super::code::ErrorCode;
+use super::limits::RequestLimits;
+use super::path::Path;
+use super::plan_request::PlanRequest;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, Path, parse};
-use super::request::{PlanRequest, REQUEST, RequestLimits, request};
+use super::reader::{Faults, Names, Node, parse};
+use super::request::{REQUEST, request};
 use super::typed;
 use singulate_planner::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use singulate_planner::scene::{COORDINATE_RANGE, Scene};

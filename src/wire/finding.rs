@@ -1,8 +1,9 @@
 //! What the scene's own checks found, as faults with a pointer.
 
 use super::code::ErrorCode;
+use super::path::Path;
 use super::problem::WarningItem;
-use super::reader::{Faults, Path};
+use super::reader::Faults;
 use singulate_planner::plan::{Cause, Warning};
 use singulate_planner::scene::{Finding, Flaw, Place, Scene};
 

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use serde::Deserialize;
 
-use super::request::{MAX_SCENE_ID_LENGTH, RequestLimits};
+use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
 
 /// What a glance at a planning or verification request shows. What is wrong with it is for the reader to say; here a body with
 /// a field of a wrong type, or one that is there twice, shows nothing.

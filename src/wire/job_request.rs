@@ -3,17 +3,13 @@
 use serde_json::Value;
 
 use super::code::ErrorCode;
+use super::limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, RequestLimits};
+use super::path::Path;
+use super::plan_request::PlanRequest;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, Path, parse};
-use super::request::{PlanRequest, RequestLimits, request};
+use super::reader::{Faults, Names, Node, parse};
+use super::request::request;
 use super::typed;
-
-/// The most scenes of one batch. More of them would be more than one transaction should hold others up for.
-pub const MAX_BATCH: usize = 100;
-/// The longest URL of a callback, characters: what all servers take.
-pub const MAX_CALLBACK_URL_LENGTH: usize = 2000;
-/// The least and the greatest priority.
-pub const PRIORITY_RANGE: (i64, i64) = (-100, 100);
 
 /// A checked request for a job.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::code::ErrorCode;
+use super::path::MAX_FAULTS;
 use super::problem::{ErrorItem, Problem, ProblemKind};
-use super::reader::MAX_FAULTS;
 use super::walk::{NoNumber, Slip, walk};
 
 /// What some editors put before a text in UTF-8; no part of JSON.

@@ -11,7 +11,10 @@ mod glance;
 mod job;
 mod job_request;
 mod knowledge;
+mod limits;
 mod malformed;
+mod path;
+mod plan_request;
 mod problem;
 mod reader;
 mod request;
@@ -32,10 +35,12 @@ pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use code::ErrorCode;
 pub use glance::Glance;
 pub use job::{BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody, queued_job};
-pub use job_request::{JobRequest, MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, read_batch, read_job};
+pub use job_request::{JobRequest, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
+pub use limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
+pub use plan_request::PlanRequest;
 pub use problem::{Cause, ErrorItem, Problem, ProblemKind, WarningItem};
-pub use request::{MAX_SCENE_ID_LENGTH, PlanRequest, RequestLimits, read_scene};
+pub use request::read_scene;
 pub use scene::{
     GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,
     SettingsBody, TableBody,

@@ -1,82 +1,14 @@
 //! A planning request read from JSON.
 
-use core::time::Duration;
-
 use super::code::ErrorCode;
-use super::finding;
-use super::problem::{Problem, WarningItem};
-use super::reader::{Faults, Names, Node, Path, parse};
+use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
+use super::path::Path;
+use super::plan_request::{PlanRequest, StatedRequest};
+use super::problem::Problem;
+use super::reader::{Faults, Names, Node, parse};
 use super::settings::StatedSettings;
 use super::typed;
-use singulate_planner::paper::DEFAULT_RESOLUTION;
-use singulate_planner::plan::Settings;
-use singulate_planner::scene::{
-    Flaw, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft,
-};
-
-/// The longest scene id, characters: it stands in every log line of its request.
-pub const MAX_SCENE_ID_LENGTH: usize = 256;
-
-/// What a request may ask for at the most.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RequestLimits {
-    /// The limits of a scene; its overlap tolerance holds where a request names none.
-    pub scene: SceneLimits,
-    /// The greatest overlap tolerance that a request may name, m; see also
-    /// [`greatest_overlap_tolerance`](Self::greatest_overlap_tolerance).
-    pub max_overlap_tolerance: f64,
-    /// The time limit of a request that names none.
-    pub default_time_limit: Duration,
-    /// The longest time limit that a request may name.
-    pub max_time_limit: Duration,
-    /// The side of a pixel of the images on which `placement: raster` finds places, m.
-    pub raster_resolution: f64,
-}
-
-impl Default for RequestLimits {
-    fn default() -> Self {
-        Self {
-            scene: SceneLimits::default(),
-            // Two centres that are off by 5 mm each. Past that most dishes of a scene would be noise.
-            max_overlap_tolerance: 1e-2,
-            // A thousand times what most scenes take, and a robot bears to wait so long.
-            default_time_limit: Duration::from_millis(1000),
-            // The paper's own limit. Whoever has more time has a thread for as long.
-            max_time_limit: Duration::from_millis(60_000),
-            raster_resolution: DEFAULT_RESOLUTION,
-        }
-    }
-}
-
-impl RequestLimits {
-    /// The greatest overlap tolerance that a request may name, m. What holds where it names none, it may always name.
-    pub fn greatest_overlap_tolerance(&self) -> f64 {
-        self.max_overlap_tolerance.max(self.scene.overlap_tolerance)
-    }
-}
-
-/// A checked request.
-#[derive(Debug, Clone)]
-pub struct PlanRequest {
-    /// The scene.
-    pub scene: Scene,
-    /// The caller's name for it.
-    pub scene_id: Option<String>,
-    /// How to plan.
-    pub settings: Settings,
-    /// How deep the scene's discs may overlap, m.
-    pub overlap_tolerance: f64,
-    /// The time for waiting and planning.
-    pub time_limit: Duration,
-    /// What is worth knowing about the scene.
-    pub warnings: Vec<WarningItem>,
-}
-
-impl AsRef<PlanRequest> for PlanRequest {
-    fn as_ref(&self) -> &PlanRequest {
-        self
-    }
-}
+use singulate_planner::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 /// Read a planning request.
 ///
@@ -131,38 +63,6 @@ pub(super) fn request(
     let named = scene_id.is_some();
     let stated = StatedRequest { scene_id: scene_id.flatten(), draft, settings: settings? };
     stated.checked(node.path(), limits, faults).filter(|_| named)
-}
-
-/// What a request says, its scene unchecked.
-pub(super) struct StatedRequest {
-    pub(super) scene_id: Option<String>,
-    pub(super) draft: SceneDraft,
-    pub(super) settings: StatedSettings,
-}
-
-impl StatedRequest {
-    /// The request that stands at `path`, unless anything is wrong with it.
-    pub(super) fn sound(self, path: &Path<'_>, limits: &RequestLimits) -> Option<PlanRequest> {
-        let mut faults = Faults::default();
-        let request = self.checked(path, limits, &mut faults);
-        faults.judge(request).ok()
-    }
-
-    fn checked(self, path: &Path<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
-        let Self { scene_id, draft, settings } = self;
-        let overlap_tolerance = settings.overlap_tolerance(limits);
-        match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
-            Ok((scene, warnings)) => {
-                let warnings = warnings.iter().map(|warning| finding::item(path, warning)).collect();
-                let (settings, time_limit) = settings.on(scene.table(), limits, path, faults)?;
-                Some(PlanRequest { scene, scene_id, settings, overlap_tolerance, time_limit, warnings })
-            }
-            Err(findings) => {
-                findings.iter().for_each(|fault| finding::note(path, fault, faults));
-                None
-            }
-        }
-    }
 }
 
 fn scene_id(node: Node<'_>, faults: &mut Faults) -> Option<Option<String>> {

@@ -3,8 +3,9 @@
 use core::time::Duration;
 
 use super::code::ErrorCode;
-use super::reader::{Faults, Fields, Names, Node, Path};
-use super::request::RequestLimits;
+use super::limits::RequestLimits;
+use super::path::Path;
+use super::reader::{Faults, Fields, Names, Node};
 use singulate_planner::paper::Raster;
 use singulate_planner::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
 use singulate_planner::scene::Table;

@@ -9,9 +9,9 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
-use super::job_request::{MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE};
+use super::limits::{MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
+use super::plan_request::StatedRequest;
 use super::reader::{Node, parse};
-use super::request::{MAX_SCENE_ID_LENGTH, RequestLimits, StatedRequest};
 use super::settings::StatedSettings;
 use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 

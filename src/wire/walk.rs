@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 use serde_json::Value;
 
-use super::reader::{MAX_FAULTS, Path};
+use super::path::{MAX_FAULTS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
 /// How deep values may be nested; the JSON library allows as much.

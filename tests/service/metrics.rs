@@ -159,6 +159,11 @@ async fn a_server_measures_its_own_requests_and_no_other_servers() {
     for limit in [10_000, 20_000] {
         assert_eq!(host.post("/v1/plans", &scene(limit)).await.status, 200);
     }
+    // A thread is done a little after its answer has left.
+    let busy = async || count(&parse(&host.get("/metrics").await.text), "singulate_threads_busy", &["kind=\"plan\""]);
+    while busy().await > 0.5 {
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
     let reply = host.get("/metrics").await;
     assert_eq!((reply.status, reply.header("content-type")), (200, singulate::metrics::MEDIA_TYPE));
     let families = parse(&reply.text);
@@ -167,7 +172,6 @@ async fn a_server_measures_its_own_requests_and_no_other_servers() {
         ("queue_wait_seconds", &["kind=\"plan\""], 2.0),
         ("planning_seconds", &["verdict=\"graspable\""], 2.0),
         ("planning_phase_seconds", &["phase=\"check\""], 2.0),
-        ("threads_busy", &["kind=\"plan\""], 0.0),
         ("requests_refused", &[], 0.0),
     ] {
         assert_eq!(

@@ -4,9 +4,9 @@
 //! finger's, to prove the bound or the deadlock. Where time runs out, less is said.
 
 use super::answer::{Deadlock, LowerBound, Verdict};
-use super::planner::prove_deadlock;
 use super::settings::{GraspModel, SearchMethod, Settings};
 use super::sought::{Sought, seek};
+use super::verdicts::prove_deadlock;
 use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, NoBase, relevant, swept_finger_options};

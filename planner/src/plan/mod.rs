@@ -12,6 +12,7 @@ mod settings;
 mod sought;
 mod statement;
 mod survey;
+mod verdicts;
 mod warning;
 
 pub use crate::geometry::Grasp;

@@ -3,7 +3,7 @@
 use super::answer::{Unplanned, Verdict};
 use super::check::Checker;
 use super::confirm::{PlanError, confirm};
-use super::planner::{graspable_now, greatest_lock};
+use super::verdicts::{graspable_now, greatest_lock};
 use crate::budget::Budget;
 use crate::geometry::shadow;
 use crate::knowledge::{Closure, KnowledgeBase, NoBase, close, complete, swept_finger_options};

@@ -7,6 +7,7 @@ mod draft;
 mod fault;
 mod gripper;
 mod index;
+mod limits;
 mod object;
 mod relations;
 #[cfg(test)]
@@ -21,11 +22,11 @@ pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraf
 pub use fault::{Finding, Flaw, Likely, MAX_FINDINGS, Place, Yardstick};
 pub use gripper::{Gripper, MIN_FREE_WIDTH};
 pub use index::DiscIndex;
-pub use object::{Disc, Object, ObjectIndex, distance};
-pub use table::{Rectangle, Table};
-pub use validate::{
+pub use limits::{
     COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
 };
+pub use object::{Disc, Object, ObjectIndex, distance};
+pub use table::{Rectangle, Table};
 
 /// A scene that holds. Cheap to clone.
 #[derive(Debug, Clone)]

@@ -7,7 +7,6 @@ use crate::budget::Interrupted;
 
 use super::family::{Family, Reduced};
 use super::fork::{Fork, Next};
-use super::hitting::most_frequent;
 use super::meter::Meter;
 use super::shares::improve;
 
@@ -58,7 +57,7 @@ fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted>
             (0..family.width).partition(|element| worth.with(*element) >= left);
         let taken: Vec<usize> = others.into_iter().filter(|element| worth.without(*element) >= left).collect();
         if refused.is_empty() && taken.is_empty() {
-            return Ok(match most_frequent(&family) {
+            return Ok(match family.most_frequent() {
                 Some(element) => Sight::Fork(Fork::choice(family, element, worth.at_least(), counted, limit)),
                 None => Sight::Answer(counted),
             });

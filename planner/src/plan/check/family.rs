@@ -58,6 +58,17 @@ pub(super) struct Reduced {
 }
 
 impl Family {
+    /// The element that hits most, pairs first of all; `None` if there is nothing to hit.
+    pub(super) fn most_frequent(&self) -> Option<usize> {
+        let mut weight = vec![0_usize; self.width];
+        for set in &self.sets {
+            let each = 8 >> (set.members().len().clamp(2, 5) - 2);
+            set.members().iter().for_each(|member| weight[*member] += each);
+        }
+        let best = (0..self.width).rev().max_by_key(|element| weight[*element])?;
+        (weight[best] > 0).then_some(best)
+    }
+
     /// Sets that share no element: as many elements are needed at the least. Smallest sets first.
     pub(super) fn packing(&self) -> usize {
         let mut order: Vec<&Set> = self.sets.iter().collect();

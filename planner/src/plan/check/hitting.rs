@@ -75,22 +75,11 @@ fn greedy(mut family: Family, meter: &mut Meter<'_>) -> Result<usize, Interrupte
         let reduced = family.reduce(meter)?;
         count += reduced.forced;
         meter.spend(reduced.rest.units())?;
-        let Some(best) = most_frequent(&reduced.rest) else { return Ok(count) };
+        let Some(best) = reduced.rest.most_frequent() else { return Ok(count) };
         let Some(left) = reduced.rest.after(&[best], &[]) else { return Ok(count) };
         count += 1;
         family = left;
     }
-}
-
-/// The element that hits most, pairs first of all; `None` if there is nothing to hit.
-pub(super) fn most_frequent(family: &Family) -> Option<usize> {
-    let mut weight = vec![0_usize; family.width];
-    for set in &family.sets {
-        let each = 8 >> (set.members().len().clamp(2, 5) - 2);
-        set.members().iter().for_each(|member| weight[*member] += each);
-    }
-    let best = (0..family.width).rev().max_by_key(|element| weight[*element])?;
-    (weight[best] > 0).then_some(best)
 }
 
 #[cfg(test)]

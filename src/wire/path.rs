@@ -1,0 +1,43 @@
+//! Where a value stands in a body.
+
+use core::fmt;
+
+/// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
+#[derive(Clone, Copy)]
+pub(super) enum Path<'a> {
+    Root,
+    Field(&'a Path<'a>, &'a str),
+    Item(&'a Path<'a>, usize),
+}
+
+impl<'a> Path<'a> {
+    pub(super) fn field(&'a self, name: &'a str) -> Self {
+        Self::Field(self, name)
+    }
+
+    pub(super) fn item(&'a self, position: usize) -> Self {
+        Self::Item(self, position)
+    }
+
+    /// Bytes of the names in it.
+    pub(super) fn named(&self) -> usize {
+        match self {
+            Self::Root => 0,
+            Self::Field(parent, name) => parent.named() + name.len(),
+            Self::Item(parent, _) => parent.named(),
+        }
+    }
+}
+
+impl fmt::Display for Path<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Root => Ok(()),
+            Self::Field(parent, name) => write!(f, "{parent}/{}", name.replace('~', "~0").replace('/', "~1")),
+            Self::Item(parent, position) => write!(f, "{parent}/{position}"),
+        }
+    }
+}
+
+/// The most faults that one answer lists: past that nobody reads on.
+pub(super) const MAX_FAULTS: usize = 1000;

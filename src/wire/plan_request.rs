@@ -1,0 +1,67 @@
+//! A planning request: as it is stated, and once it is checked.
+
+use core::time::Duration;
+
+use super::finding;
+use super::limits::RequestLimits;
+use super::path::Path;
+use super::problem::WarningItem;
+use super::reader::Faults;
+use super::settings::StatedSettings;
+use singulate_planner::plan::Settings;
+use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
+
+/// A checked request.
+#[derive(Debug, Clone)]
+pub struct PlanRequest {
+    /// The scene.
+    pub scene: Scene,
+    /// The caller's name for it.
+    pub scene_id: Option<String>,
+    /// How to plan.
+    pub settings: Settings,
+    /// How deep the scene's discs may overlap, m.
+    pub overlap_tolerance: f64,
+    /// The time for waiting and planning.
+    pub time_limit: Duration,
+    /// What is worth knowing about the scene.
+    pub warnings: Vec<WarningItem>,
+}
+
+impl AsRef<PlanRequest> for PlanRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        self
+    }
+}
+
+/// What a request says, its scene unchecked.
+pub(super) struct StatedRequest {
+    pub(super) scene_id: Option<String>,
+    pub(super) draft: SceneDraft,
+    pub(super) settings: StatedSettings,
+}
+
+impl StatedRequest {
+    /// The request that stands at `path`, unless anything is wrong with it.
+    pub(super) fn sound(self, path: &Path<'_>, limits: &RequestLimits) -> Option<PlanRequest> {
+        let mut faults = Faults::default();
+        let request = self.checked(path, limits, &mut faults);
+        faults.judge(request).ok()
+    }
+
+    pub(super) fn checked(self, path: &Path<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
+        let Self { scene_id, draft, settings } = self;
+        let overlap_tolerance = settings.overlap_tolerance(limits);
+        match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
+            Ok((scene, warnings)) => {
+                let warnings = warnings.iter().map(|warning| finding::item(path, warning)).collect();
+                let (settings, time_limit) = settings.on(scene.table(), limits, path, faults)?;
+                Some(PlanRequest { scene, scene_id, settings, overlap_tolerance, time_limit, warnings })
+            }
+            Err(findings) => {
+                findings.iter().for_each(|fault| finding::note(path, fault, faults));
+                None
+            }
+        }
+    }
+}
