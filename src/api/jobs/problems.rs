@@ -7,30 +7,9 @@ use axum::extract::rejection::PathRejection;
 use utoipa::IntoResponses;
 use utoipa::openapi::{RefOr, Response};
 
-use crate::api::app::App;
-use crate::api::document::problem;
-use crate::jobs::{JobId, StoreError, SubmitError};
-use crate::metrics::Refusal;
+use crate::api::responses::problem;
+use crate::jobs::JobId;
 use crate::wire::{Problem, ProblemKind};
-
-/// The store failed.
-pub(super) fn unavailable(app: &App, error: &StoreError) -> Problem {
-    app.metrics.refused(Refusal::StoreUnavailable);
-    tracing::warn!(%error, "a request was not answered");
-    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
-}
-
-/// Jobs were not accepted.
-pub(super) fn not_accepted(app: &App, error: SubmitError) -> Problem {
-    match error {
-        SubmitError::Full => {
-            app.metrics.refused(Refusal::Full);
-            Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
-        }
-        SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
-        SubmitError::Store(error) => unavailable(app, &error),
-    }
-}
 
 /// There is no such job.
 pub(super) fn no_such_job() -> Problem {
