@@ -42,4 +42,16 @@ impl App {
         };
         Ok(Self { settings, gate: Arc::new(gate), running, parts })
     }
+
+    /// From now on the service says that it is not ready, and begins nothing new.
+    pub(super) fn drain(&self) {
+        tracing::info!(computations = self.running.planning.busy(), "draining");
+        self.running.draining.begin();
+    }
+
+    /// The time for draining is nearly over.
+    pub(super) fn finish_soon(&self) {
+        tracing::warn!(computations = self.running.planning.busy(), "what still runs has to deliver the best so far");
+        self.running.planning.finish_soon();
+    }
 }

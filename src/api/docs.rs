@@ -16,8 +16,8 @@ use crate::wire::{AnyObject, Problem};
 static CONFIG: LazyLock<Arc<Config<'static>>> =
     LazyLock::new(|| Arc::new(Config::from("../openapi.json").validator_url("none").use_base_layout()));
 
-/// Gives the interface document. It describes every operation, and the one that serves it is among them: so that one is
-/// told where the text comes from, and does not name it.
+/// Gives the text of the interface document. The document names every operation, the one that serves it too: that one gets
+/// the text in this way because it must not name the document in turn.
 #[derive(Clone, Copy)]
 pub(super) struct DocumentText(pub(super) fn() -> &'static str);
 

@@ -120,7 +120,7 @@ mod tests {
     async fn a_service_that_drains_or_lost_its_pool_is_not_ready() {
         let app = started().await;
         assert_eq!(ask(&app).await, StatusCode::OK);
-        app.running.drain();
+        app.drain();
         assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
         let app = started().await;
         app.running.planning.join();

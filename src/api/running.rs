@@ -10,7 +10,6 @@ use crate::metrics::Metrics;
 use crate::workers::Draining;
 
 /// The planning threads, the store of jobs and its workers, what is measured, and the word that it all ends.
-#[derive(Clone)]
 pub(super) struct Running {
     pub(super) planning: Arc<Planning>,
     pub(super) store: Arc<dyn Store>,
@@ -37,17 +36,5 @@ impl Running {
     /// True if new requests are welcome.
     pub(super) fn ready(&self) -> bool {
         !self.draining.begun() && self.planning.ready() && self.runner.ready()
-    }
-
-    /// From now on the service says that it is not ready, and begins nothing new.
-    pub(super) fn drain(&self) {
-        tracing::info!(computations = self.planning.busy(), "draining");
-        self.draining.begin();
-    }
-
-    /// The time for draining is nearly over.
-    pub(super) fn finish_soon(&self) {
-        tracing::warn!(computations = self.planning.busy(), "what still runs has to deliver the best so far");
-        self.planning.finish_soon();
     }
 }

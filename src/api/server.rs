@@ -138,9 +138,9 @@ impl Background {
 async fn drain(app: &Arc<App>, mut connections: Connections, background: &Background) {
     let began = Instant::now();
     let (last_words, end) = (began + app.settings.drain.mul_f64(RUNNING_SHARE), began + app.settings.drain);
-    app.running.drain();
+    app.drain();
     if !connections.answer_until(last_words, background.jobs.wait()).await {
-        app.running.finish_soon();
+        app.finish_soon();
         background.over.cancel();
         if !connections.answer_until(end, background.jobs.wait()).await {
             tracing::warn!("some clients did not take their answers, or some jobs could not be handed back");

@@ -1,6 +1,6 @@
-//! The pool: a few threads, a bounded queue, and a deadline for every computation that counts from the arrival of
-//! its request. One whose caller has gone, or whose deadline has passed, never starts; one that runs is told by its budget;
-//! one that, by all that is known, could not start in time is refused at once.
+//! The pool: a few threads, a bounded queue, and a deadline for every computation that counts from the arrival of its
+//! request. One whose caller has gone, or whose deadline has passed, never starts; one that runs is told by its budget; one
+//! that, by all that is known, could not start in time is refused at once.
 
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -7,11 +7,7 @@ use tokio::sync::Semaphore;
 use crate::api::body::Bodies;
 use crate::api::running::Running;
 use crate::api::settings::ServerSettings;
-use crate::jobs::{CallbackAllow, Job, JobId, Owner, StoreError, SubmitError};
-use crate::metrics::Refusal;
-use crate::wire::{Problem, ProblemKind};
-
-use super::problems::no_such_job;
+use crate::jobs::CallbackAllow;
 
 /// Requests that may hand in jobs at a time. Their writes stand in one line with those of the workers, a millisecond or two
 /// each: behind many more of them jobs would begin and end late.
@@ -41,40 +37,6 @@ impl JobCalls {
             submitting: Semaphore::new(MAX_SUBMITTING),
             waiting: Semaphore::new(settings.max_waiting),
             streams: Arc::new(Semaphore::new(settings.max_streams)),
-        }
-    }
-
-    /// A job of the owner's.
-    ///
-    /// # Errors
-    /// A problem if there is none, or the store failed.
-    pub(super) async fn find(&self, owner: &Owner, id: JobId) -> Result<Job, Problem> {
-        let found = self.running.store.get(owner, id).await;
-        found.map_err(|error| self.unavailable(&error))?.ok_or_else(no_such_job)
-    }
-
-    /// As many as may do this already do it.
-    pub(super) fn too_many(&self, detail: &str) -> Problem {
-        self.running.metrics.refused(Refusal::Limit);
-        Problem::new(ProblemKind::Overloaded, detail)
-    }
-
-    /// The store failed.
-    pub(super) fn unavailable(&self, error: &StoreError) -> Problem {
-        self.running.metrics.refused(Refusal::StoreUnavailable);
-        tracing::warn!(%error, "a request was not answered");
-        Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
-    }
-
-    /// Jobs were not accepted.
-    pub(super) fn not_accepted(&self, error: SubmitError) -> Problem {
-        match error {
-            SubmitError::Full => {
-                self.running.metrics.refused(Refusal::Full);
-                Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
-            }
-            SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
-            SubmitError::Store(error) => self.unavailable(&error),
         }
     }
 }

@@ -14,7 +14,7 @@ use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::sleep;
 
 use super::calls::JobCalls;
-use super::one::LOOK_AGAIN;
+use super::one::{LOOK_AGAIN, find};
 use super::problems::{OneJobProblems, job_id};
 use crate::api::access::Caller;
 use crate::api::running::Running;
@@ -53,7 +53,7 @@ pub(in crate::api) async fn events(
 ) -> Result<Response, Problem> {
     let id = job_id(id)?;
     let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok());
-    let job = calls.find(&caller.owner, id).await?;
+    let job = find(&calls, &caller.owner, id).await?;
     // A name that no event of ours has begins anew.
     let seen = seen.filter(|seen| *seen <= job.events.len()).unwrap_or_default();
     if job.state.finished() && seen == job.events.len() {

@@ -17,7 +17,7 @@ use super::problems::{OneJobProblems, job_id, no_such_job};
 use super::query::Parameters;
 use crate::api::access::Caller;
 use crate::api::running::Running;
-use crate::jobs::{Cancellation, Job, JobId, JobState, Removal, Timestamp, job_ended};
+use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp, job_ended};
 use crate::metrics::Ended;
 use crate::wire::{JobBody, Problem, ProblemKind};
 
@@ -53,7 +53,7 @@ pub(in crate::api) async fn show(
     let id = job_id(id)?;
     let wait = parameters.only(&["wait_ms"])?.number("wait_ms", 0..=MAX_WAIT_MS)?.unwrap_or_default();
     let job = if wait == 0 {
-        calls.find(&caller.owner, id).await?
+        find(&calls, &caller.owner, id).await?
     } else {
         wait_for(&calls, &caller, id, Duration::from_millis(wait)).await?
     };
@@ -127,6 +127,12 @@ pub(in crate::api) async fn forget(
     }
 }
 
+/// A job of the caller's.
+pub(super) async fn find(calls: &JobCalls, owner: &Owner, id: JobId) -> Result<Job, Problem> {
+    let found = calls.running.store.get(owner, id).await;
+    found.map_err(|error| calls.unavailable(&error))?.ok_or_else(no_such_job)
+}
+
 /// The job once it has ended, or as it stands when the time is over, the service shuts down or the key no longer holds.
 async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
@@ -136,7 +142,7 @@ async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) 
     let watcher = store.hints().watch(id);
     loop {
         let changed = watcher.changed();
-        let job = calls.find(&caller.owner, id).await?;
+        let job = find(calls, &caller.owner, id).await?;
         let left = wait.saturating_sub(started.elapsed());
         if job.state.finished() || left.is_zero() || draining.begun() {
             return Ok(job);
