@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use singulate::computation::Engine;
 use singulate::wire::PlanRequest;
-use singulate::workers::{Engine, Outcome, Pool};
+use singulate::workers::{Outcome, Pool};
 use tokio::runtime::Runtime;
 
 /// How long the computation has run by then: in its knowledge, in its search, in its places.

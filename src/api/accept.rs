@@ -2,23 +2,8 @@
 
 use axum::http::{HeaderMap, header};
 
+use crate::computation::Form;
 use crate::wire::{Problem, ProblemKind};
-
-/// A representation of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
-    Json,
-    Svg,
-}
-
-impl Form {
-    pub(super) fn media_type(self) -> &'static str {
-        match self {
-            Self::Json => "application/json",
-            Self::Svg => "image/svg+xml",
-        }
-    }
-}
 
 /// One entry of the header: a range of media types and its weight.
 struct Range<'a> {

@@ -3,6 +3,7 @@
 
 use core::future::pending;
 use core::time::Duration;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,13 +13,13 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, Request, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use tracing::Span;
 
-use super::app::App;
-use super::edge;
-use super::problem::{CHALLENGE, internal};
+use super::problem::CHALLENGE;
+use crate::computation::internal;
 use crate::jobs::Owner;
-use crate::keys::{Found, Keys, Scope};
-use crate::metrics::Refusal;
+use crate::keys::{Found, Keys, KeysError, Scope};
+use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
 /// What an operation needs of a key.
@@ -59,23 +60,51 @@ impl<S: Sync> FromRequestParts<S> for Caller {
     }
 }
 
+/// Who may call.
+pub(super) struct Gate {
+    /// Without keys everybody may.
+    keys: Option<Keys>,
+    metrics: Arc<Metrics>,
+}
+
+impl Gate {
+    /// Reads the keys, if there is a file of them.
+    ///
+    /// # Errors
+    /// If it is faulty.
+    pub(super) fn open(keys: Option<&Path>, metrics: Arc<Metrics>) -> Result<Self, KeysError> {
+        Ok(Self { keys: keys.map(Keys::open).transpose()?, metrics })
+    }
+
+    /// Take over what the keys file says whenever that changes.
+    pub(super) async fn watch(&self) {
+        if let Some(keys) = &self.keys {
+            keys.watch().await;
+        }
+    }
+
+    fn admit(&self, need: Need, headers: &HeaderMap) -> Result<Caller, NotAdmitted> {
+        match &self.keys {
+            Some(keys) => admit(keys, need, headers),
+            None => Ok(Caller { owner: Owner::anonymous(), key: None }),
+        }
+    }
+}
+
 /// The middleware before an operation that needs a key.
 pub(super) async fn guard(
-    State((app, need)): State<(Arc<App>, Need)>,
+    State((gate, need)): State<(Arc<Gate>, Need)>,
     mut request: Request<Body>,
     next: Next,
 ) -> Response {
-    let caller = match &app.keys {
-        Some(keys) => admit(keys, need, request.headers()),
-        None => Ok(Caller { owner: Owner::anonymous(), key: None }),
-    };
+    let caller = gate.admit(need, request.headers());
     match caller {
         Ok(caller) => {
             request.extensions_mut().insert(caller);
             next.run(request).await
         }
         Err(refused) => {
-            app.metrics.refused(refused.refusal());
+            gate.metrics.refused(refused.refusal());
             refused.into_response()
         }
     }
@@ -91,7 +120,8 @@ enum NotAdmitted {
 
 fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, NotAdmitted> {
     let key = keys.find(presented(headers)?).ok_or(NotAdmitted::WrongKey)?;
-    edge::note_key(key.name());
+    // For the log.
+    Span::current().record("key", key.name());
     // What a key may not do counts too, or it could be tried for ever.
     key.spend(Instant::now()).map_err(NotAdmitted::Rate)?;
     match need {

@@ -3,6 +3,7 @@
 use core::future::poll_fn;
 use core::ops::Deref;
 use core::pin::Pin;
+use core::time::Duration;
 use std::sync::Arc;
 
 use axum::body::{Body, Bytes};
@@ -11,8 +12,8 @@ use hyper::body::Body as _;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::timeout;
 
-use super::app::App;
-use crate::metrics::Refusal;
+use super::settings::ServerSettings;
+use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
 /// Bodies take room in pieces of so many bytes.
@@ -36,36 +37,48 @@ impl Deref for Received {
     }
 }
 
-/// The room for all bodies together; always for one of the largest.
-pub(super) fn room(max_body_bytes: usize) -> Semaphore {
-    Semaphore::new(ROOM.max(max_body_bytes.div_ceil(PIECE)))
+/// Receives the bodies of all requests.
+pub(super) struct Bodies {
+    /// In pieces.
+    room: Arc<Semaphore>,
+    max_bytes: usize,
+    time_limit: Duration,
+    metrics: Arc<Metrics>,
 }
 
-/// The whole body of a request that declares JSON.
-///
-/// # Errors
-/// A problem if the type is another one, or the body is too large, too slow or incomplete, or there is no room for it.
-pub(super) async fn receive(request: Request<Body>, app: &App) -> Result<Received, Problem> {
-    check_type(request.headers())?;
-    let settings = &app.settings;
-    let max = settings.max_body_bytes;
-    // A length that is too large is refused at once. A client that asks before it sends is never told to send.
-    if request.body().size_hint().lower() > max as u64 {
-        return Err(too_large(max));
+impl Bodies {
+    /// There is always room for one of the largest.
+    pub(super) fn new(settings: &ServerSettings, metrics: Arc<Metrics>) -> Self {
+        let (max_bytes, time_limit) = (settings.max_body_bytes, settings.body_timeout);
+        let room = Arc::new(Semaphore::new(ROOM.max(max_bytes.div_ceil(PIECE))));
+        Self { room, max_bytes, time_limit, metrics }
     }
-    let mut intake = Intake { received: Vec::new(), bodies: &app.bodies, room: None };
-    match timeout(settings.body_timeout, intake.take(request.into_body(), max)).await {
-        Ok(Ok(())) => Ok(Received { bytes: intake.received, _room: intake.room }),
-        Ok(Err(NotTaken::Broken(problem))) => Err(problem),
-        Ok(Err(NotTaken::TooLarge)) => Err(too_large(max)),
-        Ok(Err(NotTaken::NoRoom)) => {
-            app.metrics.refused(Refusal::Limit);
-            Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"))
+
+    /// The whole body of a request that declares JSON.
+    ///
+    /// # Errors
+    /// A problem if the type is another one, or the body is too large, too slow or incomplete, or there is no room for it.
+    pub(super) async fn receive(&self, request: Request<Body>) -> Result<Received, Problem> {
+        check_type(request.headers())?;
+        let max = self.max_bytes;
+        // A length that is too large is refused at once. A client that asks before it sends is never told to send.
+        if request.body().size_hint().lower() > max as u64 {
+            return Err(too_large(max));
         }
-        Err(_) => {
-            let seconds = settings.body_timeout.as_secs_f64();
-            let detail = format!("the body was not complete after {seconds} s");
-            Err(Problem::new(ProblemKind::BodyTimeout, detail))
+        let mut intake = Intake { received: Vec::new(), bodies: &self.room, room: None };
+        match timeout(self.time_limit, intake.take(request.into_body(), max)).await {
+            Ok(Ok(())) => Ok(Received { bytes: intake.received, _room: intake.room }),
+            Ok(Err(NotTaken::Broken(problem))) => Err(problem),
+            Ok(Err(NotTaken::TooLarge)) => Err(too_large(max)),
+            Ok(Err(NotTaken::NoRoom)) => {
+                self.metrics.refused(Refusal::Limit);
+                Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"))
+            }
+            Err(_) => {
+                let seconds = self.time_limit.as_secs_f64();
+                let detail = format!("the body was not complete after {seconds} s");
+                Err(Problem::new(ProblemKind::BodyTimeout, detail))
+            }
         }
     }
 }

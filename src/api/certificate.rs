@@ -7,32 +7,46 @@ use axum::http::{HeaderValue, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::app::App;
 use super::transport::OverTls;
-use crate::metrics::Refusal;
+use crate::metrics::{Metrics, Refusal};
+use crate::tls::TlsSettings;
 use crate::wire::{Problem, ProblemKind};
 
 /// Paths that whoever looks after the service asks without a certificate.
 const PROBES: [&str; 2] = ["/livez", "/readyz"];
 
+/// What is asked of every request.
+#[derive(Clone)]
+pub(super) struct Demands {
+    tls: bool,
+    client_certificate: bool,
+    metrics: Arc<Metrics>,
+}
+
+impl Demands {
+    pub(super) fn new(settings: &TlsSettings, metrics: Arc<Metrics>) -> Self {
+        Self { tls: settings.cert.is_some(), client_certificate: settings.client_ca.is_some(), metrics }
+    }
+}
+
 /// The middleware that lets nothing in that came without TLS.
-pub(super) async fn over_tls(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
-    if app.settings.tls.cert.is_none() || request.extensions().get::<OverTls>().is_some() {
+pub(super) async fn over_tls(State(demands): State<Demands>, request: Request, next: Next) -> Response {
+    if !demands.tls || request.extensions().get::<OverTls>().is_some() {
         return next.run(request).await;
     }
     last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https"))
 }
 
 /// The middleware that asks for a client's certificate where one is needed.
-pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
-    if app.settings.tls.client_ca.is_none() || PROBES.contains(&request.uri().path()) {
+pub(super) async fn each_request(State(demands): State<Demands>, request: Request, next: Next) -> Response {
+    if !demands.client_certificate || PROBES.contains(&request.uri().path()) {
         return next.run(request).await;
     }
     let shown = request.extensions().get::<OverTls>().and_then(|mark| mark.client_certificate.clone());
     if shown.as_ref().is_some_and(|certificate| certificate.holds()) {
         return next.run(request).await;
     }
-    app.metrics.refused(Refusal::Unauthorized);
+    demands.metrics.refused(Refusal::Unauthorized);
     let refused = |detail| Problem::new(ProblemKind::Unauthorized, detail);
     match shown {
         None => refused("no client certificate came").into_response(),

@@ -75,7 +75,7 @@ impl Connections {
         async move {
             // Answers are small and waited for. A connection that keeps its delay serves all the same.
             let _ = stream.set_nodelay(true);
-            let open = app.metrics.connection();
+            let open = app.running.metrics.connection();
             let socket = Socket::new(stream, app.settings.write_timeout);
             let begun = match tls {
                 // Boxed: else every connection would keep the room that agreeing takes for as long as it lives.
@@ -142,14 +142,14 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
         }
     });
     // Whoever comes while the service drains has one request answered: most are probes.
-    let lasting = !app.draining.begun();
+    let lasting = !app.running.draining.begun();
     let mut builder = http1::Builder::new();
     builder.timer(TokioTimer::new()).header_read_timeout(IDLE_TIMEOUT).keep_alive(lasting);
     let mut connection = builder.serve_connection(TokioIo::new(stream), service);
     let mut serving = Pin::new(&mut connection);
     let ended = tokio::select! {
         ended = serving.as_mut() => ended,
-        () = app.draining.wait(), if lasting => {
+        () = app.running.draining.wait(), if lasting => {
             serving.as_mut().graceful_shutdown();
             serving.await
         }

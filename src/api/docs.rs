@@ -1,19 +1,35 @@
-//! `GET /docs/`: the interface document as a page. All its files are in the binary.
+//! `GET /openapi.json`, `/docs/`: the interface document, and the same as a page. All its files are in the binary.
 
 use std::sync::{Arc, LazyLock};
 
-use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Redirect, Response};
 use utoipa_swagger_ui::Config;
 
-use super::problem::{internal, not_found};
-use crate::wire::Problem;
+use super::problem::not_found;
+use crate::computation::internal;
+use crate::wire::{AnyObject, Problem};
 
 // The page's own validator lives on the internet, so it stays off.
 static CONFIG: LazyLock<Arc<Config<'static>>> =
     LazyLock::new(|| Arc::new(Config::from("../openapi.json").validator_url("none").use_base_layout()));
+
+/// Gives the text of the interface document. The document names every operation, the one that serves it too: that one gets
+/// the text in this way because it must not name the document in turn.
+#[derive(Clone, Copy)]
+pub(super) struct DocumentText(pub(super) fn() -> &'static str);
+
+/// This document
+///
+/// The interface as OpenAPI 3.1; `/docs` shows it as a page.
+#[utoipa::path(get, path = "/openapi.json", operation_id = "openapi", tag = "operation", responses(
+    (status = 200, description = "The document.", body = AnyObject, content_type = "application/json"),
+))]
+pub(super) async fn document(State(DocumentText(text)): State<DocumentText>) -> impl IntoResponse {
+    ([(header::CONTENT_TYPE, "application/json")], text())
+}
 
 /// Until `/` has a page of its own.
 pub(super) async fn from_root() -> Redirect {

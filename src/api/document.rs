@@ -1,24 +1,21 @@
-//! `GET /openapi.json`: the interface document, made from the code.
+//! The interface document, made from the code.
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use axum::http::header;
-use axum::response::IntoResponse;
+use utoipa::OpenApi;
 use utoipa::openapi::header::HeaderBuilder;
 use utoipa::openapi::path::{Operation, Parameter};
 use utoipa::openapi::schema::SchemaType;
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{ContentBuilder, ObjectBuilder, PathItem, Ref, RefOr, Response, ResponseBuilder, Schema, Type};
-use utoipa::{IntoResponses, OpenApi};
+use utoipa::openapi::{ObjectBuilder, PathItem, RefOr, Schema, Type};
 use utoipa_axum::router::OpenApiRouter;
 
 use super::access::Need;
 use super::examples;
-use super::problem::{PROBLEM_JSON, comes_again};
-use super::router;
+use super::operations;
+use super::responses::problem;
 use crate::keys::Scope;
-use crate::wire::{AnyObject, Problem, ProblemKind};
+use crate::wire::{Problem, ProblemKind};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -50,7 +47,7 @@ fn blank() -> utoipa::openapi::OpenApi {
 /// The interface document.
 pub fn openapi() -> utoipa::openapi::OpenApi {
     let blank = OpenApiRouter::with_openapi(blank());
-    let routed = router::operations().into_iter().fold(blank, |router, (need, (schemas, mut paths, route))| {
+    let routed = operations::operations().into_iter().fold(blank, |router, (need, (schemas, mut paths, route))| {
         paths.paths.values_mut().for_each(|item| {
             describe_need(need, item);
             describe_parameters(item);
@@ -147,69 +144,8 @@ const KEY_PROBLEMS: [(ProblemKind, &str, &str); 3] = [
     (ProblemKind::Forbidden, "The key is for something else.", "this needs a key for plan"),
 ];
 
-/// The problems of every request with a body.
-pub(super) struct RequestProblems;
-
-/// What is said of each problem, and its detail in the example. The schema's own example is the 422.
-const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
-    (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
-    (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
-    (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 5 s"),
-    (
-        ProblemKind::BodyTooLarge,
-        "The body is larger than the limit, 4,000,000 bytes by default.",
-        "a body has at most 4000000 bytes",
-    ),
-    (
-        ProblemKind::UnsupportedMediaType,
-        "The body is not declared to be JSON in UTF-8.",
-        "there is no Content-Type; send application/json",
-    ),
-    (ProblemKind::InvalidRequest, "The request is invalid: every fault with its JSON pointer.", ""),
-    (
-        ProblemKind::CheckFailed,
-        "A defect of the service; an answer that failed its own check is withheld.",
-        "the answer is withheld; the scene is in the log",
-    ),
-    (
-        ProblemKind::Overloaded,
-        "Every thread is busy, and the queue is full or no thread is likely to be free within the time limit; or the service shuts down.",
-        "every thread is busy and the queue is full",
-    ),
-];
-
-impl IntoResponses for RequestProblems {
-    fn responses() -> BTreeMap<String, RefOr<Response>> {
-        let response = |&(kind, description, detail): &(ProblemKind, &str, &str)| {
-            let example = Problem::new(kind, detail);
-            (example.status().to_string(), problem(&example, description).into())
-        };
-        REQUEST_PROBLEMS.iter().map(response).collect()
-    }
-}
-
-pub(super) fn problem(example: &Problem, description: &str) -> Response {
-    let mut content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
-    if example.kind() != ProblemKind::InvalidRequest {
-        content = content.example(serde_json::to_value(example).ok());
-    }
-    let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content.build());
-    if !comes_again(example.kind()) {
-        return response.build();
-    }
-    let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();
-    let retry_after = HeaderBuilder::new().schema(Some(seconds)).description(Some("When to come again, s.")).build();
-    response.header("Retry-After", retry_after).build()
-}
-
-static SERVED: LazyLock<String> = LazyLock::new(openapi_json);
-
-/// This document
-///
-/// The interface as OpenAPI 3.1; `/docs` shows it as a page.
-#[utoipa::path(get, path = "/openapi.json", operation_id = "openapi", tag = "operation", responses(
-    (status = 200, description = "The document.", body = AnyObject, content_type = "application/json"),
-))]
-pub(super) async fn serve() -> impl IntoResponse {
-    ([(header::CONTENT_TYPE, "application/json")], SERVED.as_str())
+/// The same text, written once.
+pub(super) fn served() -> &'static str {
+    static SERVED: LazyLock<String> = LazyLock::new(openapi_json);
+    &SERVED
 }

@@ -12,7 +12,6 @@ use axum::response::Response;
 use opentelemetry::context::FutureExt;
 use tracing::{Instrument, Span, field};
 
-use super::app::App;
 use crate::keys::without_keys;
 use crate::metrics::{Metrics, milliseconds};
 use crate::traces::{RequestSpan, Traceparent};
@@ -61,7 +60,7 @@ impl Drop for Trail {
 }
 
 /// The middleware round every handler.
-pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<Body>, next: Next) -> Response {
+pub(super) async fn each_request(State(metrics): State<Arc<Metrics>>, request: Request<Body>, next: Next) -> Response {
     let started = Instant::now();
     let (id, method) = (request_id(&request), request.method().clone());
     let (matched, uri) = (request.extensions().get::<MatchedPath>().cloned(), request.uri().clone());
@@ -80,7 +79,6 @@ pub(super) async fn each_request(State(app): State<Arc<App>>, request: Request<B
     );
     let span = RequestSpan::begin(method.as_str(), route, name, parent.as_ref());
     let context = span.as_ref().map(RequestSpan::context);
-    let metrics = Arc::clone(&app.metrics);
     let around = line.clone();
     let mut trail = Trail { line, span, metrics, method, route: matched, uri, started, status: None, cause: None };
     let answered = next.run(request).instrument(around);
@@ -105,18 +103,6 @@ fn shown(text: &str) -> String {
     match text.char_indices().nth(MAX_SHOWN) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text,
-    }
-}
-
-/// Name the caller's key in the request's log lines.
-pub(super) fn note_key(name: &str) {
-    Span::current().record("key", name);
-}
-
-/// Name the scene in the request's log lines.
-pub(super) fn note_scene(scene_id: Option<&str>) {
-    if let Some(scene_id) = scene_id {
-        Span::current().record("scene_id", scene_id);
     }
 }
 

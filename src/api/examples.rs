@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::{OpenApi, RefOr, Schema};
 
+use crate::computation::Engine;
 use crate::wire::{
     AnswerBody, KnowledgeBody, RequestLimits, StatisticsBody, SurveyBody, VerificationBody, queued_job, read_scene,
     read_verify,
 };
-use crate::workers::Engine;
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::known;
 

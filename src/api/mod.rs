@@ -1,4 +1,4 @@
-//! The HTTP interface: one file a resource, every route in [`router`], every status in `problem`.
+//! The HTTP interface: one file a resource, every route in `operations` and [`router`], every problem's answer in `problem`.
 
 mod accept;
 mod access;
@@ -13,22 +13,20 @@ mod edge;
 mod examples;
 mod headers;
 mod jobs;
-mod knowledge;
-mod metrics;
+mod operations;
 mod patience;
-mod plans;
+mod planning;
 mod probes;
 mod problem;
-mod reading;
 mod refusal;
+mod responses;
 mod router;
+mod running;
 pub mod server;
 mod settings;
 mod socket;
-mod survey;
 mod transport;
 mod unread;
-mod verification;
 
 pub use app::App;
 pub use cors::CorsOrigins;
@@ -37,4 +35,4 @@ pub use router::router;
 pub use server::{Server, run};
 pub use settings::ServerSettings;
 
-pub use crate::workers::Engine;
+pub use crate::computation::Engine;

@@ -1,17 +1,20 @@
-//! `GET /livez`, `/readyz`, `/version`.
+//! `GET /livez`, `/readyz`, `/version`, `/metrics`: for whoever watches the service.
 
 use core::time::Duration;
 use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
+use axum::http::header;
+use axum::response::IntoResponse;
 use serde::Serialize;
 use tokio::time::timeout;
 use utoipa::ToSchema;
 
+use super::running::Running;
+use crate::jobs::Counts;
+use crate::metrics::{MEDIA_TYPE, Queue};
 use crate::wire::{Problem, ProblemKind};
-
-use super::app::App;
 
 /// The state of the service.
 #[derive(Debug, Serialize, ToSchema)]
@@ -33,7 +36,7 @@ pub(super) struct VersionBody {
 }
 
 /// How long the store of jobs may take to answer a probe; probes themselves wait for about a second.
-pub(super) const STORE_PATIENCE: Duration = Duration::from_millis(500);
+const STORE_PATIENCE: Duration = Duration::from_millis(500);
 
 const OK: Json<ProbeBody> = Json(ProbeBody { status: "ok" });
 
@@ -55,11 +58,11 @@ pub(super) async fn livez() -> Json<ProbeBody> {
     (status = 503, description = "It does not.", body = Problem, content_type = "application/problem+json",
      headers(("Retry-After" = u32, description = "When to ask again, s."))),
 ))]
-pub(super) async fn readyz(State(app): State<Arc<App>>) -> Result<Json<ProbeBody>, Problem> {
-    if !app.ready() {
+pub(super) async fn readyz(State(running): State<Arc<Running>>) -> Result<Json<ProbeBody>, Problem> {
+    if !running.ready() {
         return Err(Problem::new(ProblemKind::NotReady, "shutting down, or a planning thread died"));
     }
-    match timeout(STORE_PATIENCE, app.store.ping()).await {
+    match timeout(STORE_PATIENCE, running.store.ping()).await {
         Ok(Ok(())) => Ok(OK),
         _ => Err(Problem::new(ProblemKind::StoreUnavailable, "the store of jobs does not answer")),
     }
@@ -75,6 +78,24 @@ pub(super) async fn version() -> Json<VersionBody> {
     Json(VersionBody { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") })
 }
 
+/// What is measured
+///
+/// Counters, gauges and histograms of this server since its start, for Prometheus; OpenMetrics text.
+#[utoipa::path(get, path = "/metrics", operation_id = "metrics", tag = "operation", responses(
+    (status = 200, description = "Every family with its series.", body = String,
+     content_type = "application/openmetrics-text; version=1.0.0; charset=utf-8"),
+))]
+pub(super) async fn metrics(State(running): State<Arc<Running>>) -> impl IntoResponse {
+    let Running { planning, store, runner, metrics, .. } = &*running;
+    metrics.set_busy(Queue::Plan, planning.busy());
+    metrics.set_busy(Queue::Job, runner.busy());
+    // Where the store does not answer, what it said last still stands.
+    if let Ok(Ok(Counts { queued, running })) = timeout(STORE_PATIENCE, store.counts()).await {
+        metrics.set_jobs(queued, running);
+    }
+    ([(header::CONTENT_TYPE, MEDIA_TYPE)], metrics.text())
+}
+
 #[cfg(test)]
 mod tests {
     use axum::body::Body;
@@ -82,7 +103,7 @@ mod tests {
     use tower::ServiceExt;
 
     use super::*;
-    use crate::api::{Engine, ServerSettings, router};
+    use crate::api::{App, Engine, ServerSettings, router};
     use crate::jobs::JobSettings;
 
     async fn started() -> Arc<App> {
@@ -102,7 +123,7 @@ mod tests {
         app.drain();
         assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
         let app = started().await;
-        app.pool.close();
+        app.running.planning.join();
         assert_eq!(ask(&app).await, StatusCode::SERVICE_UNAVAILABLE);
     }
 }

@@ -1,4 +1,4 @@
-//! Faults as responses: the one place that knows which inner error has which status.
+//! Problems as responses: their headers, and when to come again.
 
 use core::any::Any;
 use core::time::Duration;
@@ -7,9 +7,8 @@ use axum::Json;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::metrics::Refusal;
+use crate::computation::internal;
 use crate::wire::{Problem, ProblemKind};
-use crate::workers::Refused;
 
 /// The media type of a problem document.
 pub(super) const PROBLEM_JSON: &str = "application/problem+json";
@@ -68,45 +67,6 @@ fn seconds(problem: &Problem) -> u64 {
     after.as_secs() + u64::from(after.subsec_nanos() > 0)
 }
 
-/// No room for a computation.
-pub(super) fn refused(refused: Refused) -> Problem {
-    let problem = |kind| Problem::new(kind, refused.to_string());
-    match refused {
-        Refused::Full => problem(ProblemKind::Overloaded),
-        Refused::TooLate { retry_after } => problem(ProblemKind::Overloaded).with_retry_after(retry_after),
-        Refused::Closed => not_ready(),
-    }
-}
-
-/// The service shuts down.
-pub(super) fn not_ready() -> Problem {
-    Problem::new(ProblemKind::NotReady, "the service shuts down and begins nothing new")
-}
-
-/// The same as a measurement.
-pub(super) fn refusal(refused: Refused) -> Refusal {
-    match refused {
-        Refused::Full => Refusal::Full,
-        Refused::TooLate { .. } => Refusal::TooLate,
-        Refused::Closed => Refusal::NotReady,
-    }
-}
-
-/// A body that could not be read within its time limit, and nothing can be said without it.
-pub(super) fn unread() -> Problem {
-    Problem::new(ProblemKind::Overloaded, "the body could not be read within its time limit")
-}
-
-/// A scene that was read, but whose answer did not get done within its time limit, and half of it is of no use.
-pub(super) fn late() -> Problem {
-    Problem::new(ProblemKind::Overloaded, "the answer was not done within the time limit")
-}
-
-/// A defect of the service.
-pub(super) fn internal() -> Problem {
-    Problem::new(ProblemKind::Internal, "the request could not be answered")
-}
-
 /// A panic in a handler.
 #[expect(clippy::needless_pass_by_value, reason = "the signature that the layer calls")]
 pub(super) fn panicked(panic: Box<dyn Any + Send + 'static>) -> Response {
@@ -129,12 +89,13 @@ pub(super) async fn method_not_allowed() -> Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::workers::Refused;
 
     #[test]
     fn who_is_refused_comes_again_after_whole_seconds_neither_at_once_nor_never() {
-        let seconds = |millis| seconds(&refused(Refused::TooLate { retry_after: Duration::from_millis(millis) }));
+        let seconds = |millis| seconds(&Refused::TooLate { retry_after: Duration::from_millis(millis) }.into());
         assert_eq!([0, 10, 1000, 1001, 59_001, 1_000_000].map(seconds), [1, 1, 1, 2, 60, 60]);
-        assert_eq!(super::seconds(&refused(Refused::Full)), 1);
+        assert_eq!(super::seconds(&Refused::Full.into()), 1);
         let exact = Problem::new(ProblemKind::RateExceeded, "").with_retry_after(Duration::from_millis(999_001));
         assert_eq!(super::seconds(&exact), 1000);
     }

@@ -1,4 +1,4 @@
-//! Every route on one screen, each with what it needs of a key.
+//! The routes of the service, and the layers round them.
 
 use std::sync::Arc;
 
@@ -6,54 +6,19 @@ use axum::Router;
 use axum::middleware::{from_fn, from_fn_with_state};
 use axum::routing::get;
 use tower_http::catch_panic::CatchPanicLayer;
-use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
-use utoipa_axum::routes;
+use utoipa_axum::router::OpenApiRouter;
 
 use super::access::{Need, guard};
 use super::app::App;
-use super::{
-    certificate, docs, document, edge, headers, jobs, knowledge, metrics, plans, probes, problem, survey, verification,
-};
-use crate::keys::Scope;
-
-const PLAN: Need = Need::OneOf(&[Scope::Plan]);
-const JOBS: Need = Need::OneOf(&[Scope::Jobs]);
-const READ_JOBS: Need = Need::OneOf(&[Scope::ReadOnly, Scope::Jobs]);
-const METRICS: Need = Need::OneOf(&[Scope::Metrics]);
-
-/// The operations that the interface document describes.
-pub(super) fn operations() -> [(Need, UtoipaMethodRouter<Arc<App>>); 16] {
-    [
-        (PLAN, routes!(plans::plan)),
-        (PLAN, routes!(verification::verify)),
-        (PLAN, routes!(survey::survey)),
-        (PLAN, routes!(knowledge::knowledge)),
-        (JOBS, routes!(jobs::submit)),
-        (READ_JOBS, routes!(jobs::list)),
-        (JOBS, routes!(jobs::batch)),
-        (READ_JOBS, routes!(jobs::show)),
-        (JOBS, routes!(jobs::forget)),
-        (READ_JOBS, routes!(jobs::events)),
-        (JOBS, routes!(jobs::cancel)),
-        (Need::Nothing, routes!(probes::livez)),
-        (Need::Nothing, routes!(probes::readyz)),
-        (Need::AnyKey, routes!(probes::version)),
-        (METRICS, routes!(metrics::metrics)),
-        (Need::Nothing, routes!(document::serve)),
-    ]
-}
+use super::certificate::{self, Demands};
+use super::operations::{Parts, operations};
+use super::{docs, edge, headers, problem};
 
 /// The whole service.
+#[expect(clippy::needless_pass_by_value, reason = "whoever serves it owns it")]
 pub fn router(app: Arc<App>) -> Router {
-    let guarded = operations().into_iter().fold(OpenApiRouter::new(), |router, (need, (schemas, paths, route))| {
-        let route = match need {
-            Need::Nothing => route,
-            _ => route.route_layer(from_fn_with_state((Arc::clone(&app), need), guard)),
-        };
-        router.routes((schemas, paths, route))
-    });
-    let (router, _) = guarded.split_for_parts();
-    let router = router
+    let demands = Demands::new(&app.settings.tls, Arc::clone(&app.running.metrics));
+    let router = guarded(&app)
         .route("/", get(docs::from_root))
         .route("/docs", get(docs::to_folder))
         .route("/docs/", get(docs::page))
@@ -61,12 +26,25 @@ pub fn router(app: Arc<App>) -> Router {
         .fallback(problem::not_found)
         .method_not_allowed_fallback(problem::method_not_allowed)
         .layer(CatchPanicLayer::custom(problem::panicked))
-        .layer(from_fn_with_state(Arc::clone(&app), certificate::each_request));
+        .layer(from_fn_with_state(demands.clone(), certificate::each_request));
     // What a browser asks ahead of a call comes without key and certificate.
     let router = match app.settings.cors_origins.layer() {
         Some(cors) => router.layer(cors),
         None => router,
     };
-    let router = router.layer(from_fn_with_state(Arc::clone(&app), certificate::over_tls));
-    router.layer(from_fn(headers::add)).layer(from_fn_with_state(Arc::clone(&app), edge::each_request)).with_state(app)
+    let router = router.layer(from_fn_with_state(demands, certificate::over_tls)).layer(from_fn(headers::add));
+    let told = from_fn_with_state(Arc::clone(&app.running.metrics), edge::each_request);
+    router.layer(told).with_state(app.parts.clone())
+}
+
+/// The operations, each behind what it needs of a key.
+fn guarded(app: &App) -> Router<Parts> {
+    let guarded = operations().into_iter().fold(OpenApiRouter::new(), |router, (need, (schemas, paths, route))| {
+        let route = match need {
+            Need::Nothing => route,
+            _ => route.route_layer(from_fn_with_state((Arc::clone(&app.gate), need), guard)),
+        };
+        router.routes((schemas, paths, route))
+    });
+    guarded.split_for_parts().0
 }

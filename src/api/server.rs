@@ -13,10 +13,11 @@ use tokio_util::task::{AbortOnDropHandle, TaskTracker};
 
 use super::app::App;
 use super::connections::Connections;
+use super::running::Running;
 use super::settings::ServerSettings;
+use crate::computation::{Engine, Planning};
 use crate::jobs::{self, CallbackDelivery};
 use crate::tls::Certificates;
-use crate::workers::Engine;
 
 /// The share of the time for draining after which what still runs is to deliver the best so far. The rest is for those
 /// answers to be written, and taken.
@@ -48,7 +49,7 @@ impl Server {
             app = App::start(settings, engine) => Arc::new(app?),
             () = shutdown => return Ok(None),
         };
-        let (store, metrics) = (Arc::clone(&app.store), Arc::clone(&app.metrics));
+        let (store, metrics) = (Arc::clone(&app.running.store), Arc::clone(&app.running.metrics));
         let callbacks = CallbackDelivery::new(store, &app.settings.jobs, jobs::message, metrics);
         Ok(Some(Self { app, certificates, callbacks: callbacks.map_err(io::Error::other)? }))
     }
@@ -56,9 +57,9 @@ impl Server {
     /// Serve on `listener` until `shutdown` is done; then drain and return.
     pub async fn serve(self, listener: TcpListener, shutdown: impl Future<Output = ()>) {
         let Self { app, certificates, callbacks } = self;
-        let watched = Arc::clone(&app);
-        let _watching = AbortOnDropHandle::new(tokio::spawn(async move { watched.watch_keys().await }));
-        let background = Background::begin(&app, callbacks);
+        let gate = Arc::clone(&app.gate);
+        let _watching = AbortOnDropHandle::new(tokio::spawn(async move { gate.watch().await }));
+        let background = Background::begin(&app.running, callbacks);
         let acceptor = certificates.as_ref().map(Certificates::acceptor);
         let _current = certificates.map(|own| AbortOnDropHandle::new(tokio::spawn(own.keep_current())));
         let mut connections = Connections::new(listener, Arc::clone(&app), acceptor);
@@ -74,7 +75,7 @@ impl Server {
 }
 
 async fn close(app: &App) {
-    if let Err(error) = app.store.close().await {
+    if let Err(error) = app.running.store.close().await {
         tracing::warn!(%error, "the store of jobs was not closed in order; a copy of a SQLite file needs the -wal beside it");
     }
 }
@@ -119,9 +120,9 @@ struct Background {
 }
 
 impl Background {
-    fn begin(app: &App, delivery: Option<CallbackDelivery>) -> Self {
+    fn begin(running: &Running, delivery: Option<CallbackDelivery>) -> Self {
         let (jobs, over) = (TaskTracker::new(), CancellationToken::new());
-        jobs.spawn(Arc::clone(&app.runner).run(app.draining.clone(), over.clone()));
+        jobs.spawn(Arc::clone(&running.runner).run(running.draining.clone(), over.clone()));
         jobs.close();
         let (callbacks, silence) = (TaskTracker::new(), CancellationToken::new());
         if let Some(delivery) = delivery {
@@ -149,14 +150,14 @@ async fn drain(app: &Arc<App>, mut connections: Connections, background: &Backgr
     drop(connections);
     background.silence.cancel();
     background.callbacks.wait().await;
-    end_computations(app, end.max(Instant::now() + LAST_LOOK)).await;
+    end_computations(&app.running.planning, end.max(Instant::now() + LAST_LOOK)).await;
 }
 
 /// Every caller has gone, so what still runs is cancelled and ends within milliseconds. Should it not, the process takes it
 /// along.
-async fn end_computations(app: &Arc<App>, end: Instant) {
-    let own = Arc::clone(app);
-    if timeout_at(end, spawn_blocking(move || own.pool.join())).await.is_err() {
+async fn end_computations(planning: &Arc<Planning>, end: Instant) {
+    let own = Arc::clone(planning);
+    if timeout_at(end, spawn_blocking(move || own.join())).await.is_err() {
         tracing::error!("a computation does not end though it is cancelled");
     }
 }

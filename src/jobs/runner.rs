@@ -21,9 +21,10 @@ use super::store::{Claimed, Store};
 use super::sweeper::sweep;
 use super::timestamp::{Timestamp, WallClock};
 use super::work::{Tools, Work};
+use crate::computation::Engine;
 use crate::metrics::{Ended, Metrics, Queue};
 use crate::wire::RequestLimits;
-use crate::workers::{Draining, Engine, Pool, Recall};
+use crate::workers::{Draining, Pool, Recall};
 
 /// How long to wait for a hint before looking for work all the same: another server's hint may be lost.
 const LOOK_AGAIN: Duration = Duration::from_millis(500);

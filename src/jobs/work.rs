@@ -6,9 +6,10 @@ use std::time::Instant;
 use tokio::sync::watch;
 
 use super::job::End;
+use crate::computation::Engine;
 use crate::metrics::Metrics;
 use crate::wire::{AnswerBody, Cause, Glance, Problem, ProblemKind, RequestLimits, VerdictWord, read_job};
-use crate::workers::{Engine, Outcome, Pending, Pool, Recall, Refused};
+use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
 use singulate_planner::budget::{Budget, Incumbent};
 
 /// The store has seen to the turns of owners; a job that it gave is not to wait for another's.

@@ -1,7 +1,6 @@
 //! Runs computations on threads of their own, so that waiting for them costs the rest of the service nothing.
 
 mod draining;
-mod engine;
 mod forecast;
 mod pending;
 mod pool;
@@ -10,6 +9,5 @@ mod queue;
 mod tests;
 
 pub use draining::Draining;
-pub use engine::{Engine, panicked};
 pub use pending::{Outcome, Pending, Recall};
 pub use pool::{Pool, Refused};

@@ -1,6 +1,6 @@
-//! The planning pool: a few threads, a bounded queue, and a deadline for every computation that counts from the arrival of
-//! its request. One whose caller has gone, or whose deadline has passed, never starts; one that runs is told by its budget;
-//! one that, by all that is known, could not start in time is refused at once.
+//! The pool: a few threads, a bounded queue, and a deadline for every computation that counts from the arrival of its
+//! request. One whose caller has gone, or whose deadline has passed, never starts; one that runs is told by its budget; one
+//! that, by all that is known, could not start in time is refused at once.
 
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -67,7 +67,7 @@ impl core::fmt::Debug for Waiting {
     }
 }
 
-/// Searches descend a level, of about 1 kB, for each object of a set. Only what is used takes memory.
+/// A computation may descend ten thousand levels, of about 1 kB each. Only what is used takes memory.
 const STACK_BYTES: usize = 16 << 20;
 
 impl Pool {

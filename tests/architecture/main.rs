@@ -14,7 +14,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// The rooms of the planner, lowest first: each may name those before it, none may name one after it.
 const PLANNER: [&str; 8] = ["budget", "scene", "geometry", "knowledge", "search", "placement", "paper", "plan"];
 /// The rooms of the service, likewise. Each may name the planner.
-const SERVICE: [&str; 14] = [
+const SERVICE: [&str; 15] = [
     "experiments",
     "render",
     "wire",
@@ -23,6 +23,7 @@ const SERVICE: [&str; 14] = [
     "watched_files",
     "keys",
     "workers",
+    "computation",
     "jobs",
     "tls",
     "api",
@@ -175,13 +176,28 @@ fn a_stated_answer_names_no_part_of_the_planner() {
     }
 }
 
+/// A thread of the pool is for any computation that obeys a budget.
+#[test]
+fn the_pool_knows_nothing_of_planning() {
+    let sources = sources().into_iter().filter(|source| source.room == "workers");
+    let mut seen = 0;
+    for Source { path, text, .. } in sources {
+        seen += 1;
+        assert!(named_rooms(&text).iter().all(|room| *room == "workers"), "{} names another room", path.display());
+        let planner = text.matches("singulate_planner").count();
+        assert_eq!(planner, text.matches("singulate_planner::budget::").count(), "{}", path.display());
+    }
+    assert!(seen > 3, "the pool's files are read");
+}
+
 #[test]
 fn only_wire_and_above_know_json() {
     for Source { room, path, text } in sources() {
         if ["render", "experiments"].contains(&room.as_str()) {
             assert!(!names(&text, "serde_json") && !names(&text, "serde"), "{} names serde", path.display());
         }
-        let below = ["render", "experiments", "wire", "metrics", "traces", "keys", "workers", "jobs", "tls"];
+        let below =
+            ["render", "experiments", "wire", "metrics", "traces", "keys", "workers", "computation", "jobs", "tls"];
         if below.contains(&room.as_str()) {
             assert!(!names(&text, "axum"), "{} names axum", path.display());
         }

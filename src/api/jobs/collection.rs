@@ -12,19 +12,16 @@ use axum::response::Response;
 use tokio::time::timeout;
 
 use super::accepted::accepted;
-use super::problems::{JobProblems, not_accepted, unavailable};
+use super::calls::JobCalls;
+use super::problems::JobProblems;
 use super::query::Parameters;
 use super::submission::{Shape, check_callbacks, key, new_jobs};
 use crate::api::access::Caller;
-use crate::api::app::App;
-use crate::api::document::RequestProblems;
-use crate::api::reading::Read;
-use crate::api::{body, edge};
+use crate::api::responses::RequestProblems;
+use crate::computation::{internal, note_scene};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
-use crate::metrics::Refusal;
 use crate::wire::{
-    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, ProblemKind, RequestLimits,
-    read_batch, read_job,
+    BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
 };
 
 /// How long a request waits for its turn to hand in jobs: long enough for a fleet that starts at once, and the store takes
@@ -33,6 +30,9 @@ const SUBMIT_PATIENCE: Duration = Duration::from_secs(1);
 /// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
 const MAX_PAGE: u64 = 100;
 const DEFAULT_PAGE: u64 = 20;
+
+/// Reads a body that asks for jobs.
+type Read = fn(&[u8], &RequestLimits) -> Result<Vec<JobRequest>, Problem>;
 
 /// Plan later
 ///
@@ -54,13 +54,13 @@ const DEFAULT_PAGE: u64 = 20;
     )
 )]
 pub(in crate::api) async fn submit(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     request: Request<Body>,
 ) -> Result<Response, Problem> {
-    let read: Read<Vec<JobRequest>> = |body, limits| Ok(vec![read_job(body, limits)?]);
-    let jobs = take(&app, &caller.owner, request, (read, Shape::One)).await?;
-    let job = jobs.first().ok_or_else(crate::api::problem::internal)?;
+    let read: Read = |body, limits| Ok(vec![read_job(body, limits)?]);
+    let jobs = take(&calls, &caller.owner, request, (read, Shape::One)).await?;
+    let job = jobs.first().ok_or_else(internal)?;
     Ok(accepted(Some(job.id), job.body()))
 }
 
@@ -82,11 +82,11 @@ pub(in crate::api) async fn submit(
     )
 )]
 pub(in crate::api) async fn batch(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     request: Request<Body>,
 ) -> Result<Response, Problem> {
-    let jobs = take(&app, &caller.owner, request, (read_batch, Shape::Batch)).await?;
+    let jobs = take(&calls, &caller.owner, request, (read_batch, Shape::Batch)).await?;
     Ok(accepted(None, JobsBody { jobs: jobs.iter().map(Job::body).collect() }))
 }
 
@@ -109,7 +109,7 @@ pub(in crate::api) async fn batch(
     )
 )]
 pub(in crate::api) async fn list(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     parameters: Parameters,
 ) -> Result<Json<JobListBody>, Problem> {
@@ -121,41 +121,39 @@ pub(in crate::api) async fn list(
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     // One more tells whether there are more.
     let page = Page { state, before, limit: limit + 1 };
-    let jobs = app.store.list(&caller.owner, page).await.map_err(|error| unavailable(&app, &error))?;
+    let listed = calls.running.store.list(&caller.owner, page).await;
+    let jobs = listed.map_err(|error| calls.unavailable(&error))?;
     let next_cursor = (jobs.len() > limit).then(|| jobs[limit - 1].id.to_string());
     Ok(Json(JobListBody { jobs: jobs.iter().take(limit).map(Job::body).collect(), next_cursor }))
 }
 
 /// The jobs that a body asks for, kept by the store.
 async fn take(
-    app: &Arc<App>,
+    calls: &JobCalls,
     owner: &Owner,
     request: Request<Body>,
-    (read, shape): (Read<Vec<JobRequest>>, Shape),
+    (read, shape): (Read, Shape),
 ) -> Result<Vec<Job>, Problem> {
     let arrival = Instant::now();
-    app.takes_work()?;
+    let planning = &calls.running.planning;
+    planning.takes_work()?;
     let key = key(request.headers())?;
-    let body = body::receive(request, app).await?;
-    let _submitting = match timeout(SUBMIT_PATIENCE, app.submitting.acquire()).await {
+    let body = calls.bodies.receive(request).await?;
+    let _submitting = match timeout(SUBMIT_PATIENCE, calls.submitting.acquire()).await {
         Ok(Ok(place)) => place,
-        _ => {
-            app.metrics.refused(Refusal::Limit);
-            let detail = "as many requests hand in jobs as may; nothing of this one was kept";
-            return Err(Problem::new(ProblemKind::Overloaded, detail));
-        }
+        _ => return Err(calls.too_many("as many requests hand in jobs as may; nothing of this one was kept")),
     };
-    let (own, allow) = (owner.clone(), app.settings.jobs.callback_allow.clone());
+    let (own, allow) = (owner.clone(), calls.callback_allow.clone());
     let new = move |body: &[u8], limits: &RequestLimits| {
         let mut requests = read(body, limits)?;
         check_callbacks(&mut requests, shape, &allow)?;
         Ok(new_jobs(requests, body, &own, key.as_deref()))
     };
-    let jobs = app.read(owner, arrival, body, new).await?;
+    let jobs = planning.read(owner.as_str(), arrival, body, new).await?;
     if let [job] = &jobs[..] {
-        edge::note_scene(job.scene_id.as_deref());
+        note_scene(job.scene_id.as_deref());
     }
-    app.store.submit(&jobs, Timestamp::now()).await.map_err(|error| not_accepted(app, error))
+    calls.running.store.submit(&jobs, Timestamp::now()).await.map_err(|error| calls.not_accepted(error))
 }
 
 #[cfg(test)]
@@ -164,7 +162,7 @@ mod tests {
     use tower::ServiceExt;
 
     use super::*;
-    use crate::api::{Engine, ServerSettings, router};
+    use crate::api::{App, Engine, ServerSettings, router};
     use crate::jobs::JobSettings;
 
     #[tokio::test]
@@ -176,8 +174,9 @@ mod tests {
             let request = Request::post("/v1/jobs").header(header::CONTENT_TYPE, "application/json");
             router(Arc::clone(&app)).oneshot(request.body(Body::from("{}")).unwrap()).await.unwrap()
         };
-        let others = app.submitting.available_permits().try_into().unwrap();
-        let others = app.submitting.acquire_many(others).await.unwrap();
+        let submitting = &app.parts.jobs.submitting;
+        let others = submitting.available_permits().try_into().unwrap();
+        let others = submitting.acquire_many(others).await.unwrap();
         let refused = ask().await;
         assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
         assert!(refused.headers().contains_key(header::RETRY_AFTER));

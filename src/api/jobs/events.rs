@@ -13,13 +13,14 @@ use futures_util::stream::{Stream, unfold};
 use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::sleep;
 
+use super::calls::JobCalls;
 use super::one::{LOOK_AGAIN, find};
 use super::problems::{OneJobProblems, job_id};
 use crate::api::access::Caller;
-use crate::api::app::App;
+use crate::api::running::Running;
 use crate::jobs::{Job, Watcher};
-use crate::metrics::{Open, Refusal};
-use crate::wire::{JobBody, Problem, ProblemKind};
+use crate::metrics::Open;
+use crate::wire::{JobBody, Problem};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
@@ -45,30 +46,28 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
     )
 )]
 pub(in crate::api) async fn events(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     id: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let id = job_id(id)?;
     let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok());
-    let job = find(&app, &caller.owner, id).await?;
+    let job = find(&calls, &caller.owner, id).await?;
     // A name that no event of ours has begins anew.
     let seen = seen.filter(|seen| *seen <= job.events.len()).unwrap_or_default();
     if job.state.finished() && seen == job.events.len() {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let slot = Arc::clone(&app.streams).try_acquire_owned().map_err(|_| {
-        app.metrics.refused(Refusal::Limit);
-        Problem::new(ProblemKind::Overloaded, "as many clients listen to jobs as may; ask for the job instead")
-    })?;
-    let listener = Listener::new(app, caller, (job, seen), slot);
+    let slot = Arc::clone(&calls.streams).try_acquire_owned();
+    let slot = slot.map_err(|_| calls.too_many("as many clients listen to jobs as may; ask for the job instead"))?;
+    let listener = Listener::new(Arc::clone(&calls.running), caller, (job, seen), slot);
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// One client on its way through a job's events.
 struct Listener {
-    app: Arc<App>,
+    running: Arc<Running>,
     caller: Caller,
     /// As it stood when the store was last asked.
     job: Job,
@@ -83,10 +82,10 @@ struct Listener {
 }
 
 impl Listener {
-    fn new(app: Arc<App>, caller: Caller, (job, seen): (Job, usize), slot: OwnedSemaphorePermit) -> Self {
-        let watcher = app.store.hints().watch(job.id);
-        let open = app.metrics.stream();
-        Self { app, caller, job, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
+    fn new(running: Arc<Running>, caller: Caller, (job, seen): (Job, usize), slot: OwnedSemaphorePermit) -> Self {
+        let watcher = running.store.hints().watch(job.id);
+        let open = running.metrics.stream();
+        Self { running, caller, job, watcher, seen, ready: VecDeque::new(), over: false, _slot: slot, _open: open }
     }
 
     fn messages(self) -> impl Stream<Item = Result<Message, Infallible>> {
@@ -105,7 +104,7 @@ impl Listener {
                 return None;
             }
             let changed = self.watcher.changed();
-            match self.app.store.get(&self.caller.owner, self.job.id).await {
+            match self.running.store.get(&self.caller.owner, self.job.id).await {
                 Ok(Some(job)) => self.take(job),
                 Ok(None) => self.over = true,
                 // The store may be back soon.
@@ -116,7 +115,7 @@ impl Listener {
                     () = changed => {}
                     () = sleep(LOOK_AGAIN) => {}
                     () = self.caller.locked_out() => self.over = true,
-                    () = self.app.draining.wait() => {
+                    () = self.running.draining.wait() => {
                         self.ready.push_back(message("draining", &self.job));
                         self.over = true;
                     }

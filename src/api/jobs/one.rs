@@ -12,12 +12,13 @@ use axum::response::Response;
 use tokio::time::sleep;
 
 use super::accepted::accepted;
-use super::problems::{OneJobProblems, job_id, no_such_job, unavailable};
+use super::calls::JobCalls;
+use super::problems::{OneJobProblems, job_id, no_such_job};
 use super::query::Parameters;
 use crate::api::access::Caller;
-use crate::api::app::App;
+use crate::api::running::Running;
 use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp, job_ended};
-use crate::metrics::{Ended, Refusal};
+use crate::metrics::Ended;
 use crate::wire::{JobBody, Problem, ProblemKind};
 
 /// The longest wait, ms: what proxies and clients bear.
@@ -44,7 +45,7 @@ pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
     )
 )]
 pub(in crate::api) async fn show(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     id: Result<Path<String>, PathRejection>,
     parameters: Parameters,
@@ -52,9 +53,9 @@ pub(in crate::api) async fn show(
     let id = job_id(id)?;
     let wait = parameters.only(&["wait_ms"])?.number("wait_ms", 0..=MAX_WAIT_MS)?.unwrap_or_default();
     let job = if wait == 0 {
-        find(&app, &caller.owner, id).await?
+        find(&calls, &caller.owner, id).await?
     } else {
-        wait_for(&app, &caller, id, Duration::from_millis(wait)).await?
+        wait_for(&calls, &caller, id, Duration::from_millis(wait)).await?
     };
     Ok(Json(job.body()))
 }
@@ -76,20 +77,21 @@ pub(in crate::api) async fn show(
     )
 )]
 pub(in crate::api) async fn cancel(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     id: Result<Path<String>, PathRejection>,
 ) -> Result<Response, Problem> {
     let id = job_id(id)?;
-    let cancelled = app.store.cancel(&caller.owner, id, Timestamp::now()).await;
-    match cancelled.map_err(|error| unavailable(&app, &error))? {
+    let Running { store, runner, metrics, .. } = &*calls.running;
+    let cancelled = store.cancel(&caller.owner, id, Timestamp::now()).await;
+    match cancelled.map_err(|error| calls.unavailable(&error))? {
         Cancellation::Unknown => Err(no_such_job()),
         Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
         Cancellation::Accepted(job) => {
-            app.runner.cancel(id);
+            runner.cancel(id);
             if job.state == JobState::Cancelled {
                 job_ended(id, Ended::Cancelled);
-                app.metrics.job_ended(Ended::Cancelled);
+                metrics.job_ended(Ended::Cancelled);
             }
             Ok(accepted(Some(id), job.body()))
         }
@@ -113,12 +115,12 @@ pub(in crate::api) async fn cancel(
     )
 )]
 pub(in crate::api) async fn forget(
-    State(app): State<Arc<App>>,
+    State(calls): State<Arc<JobCalls>>,
     caller: Caller,
     id: Result<Path<String>, PathRejection>,
 ) -> Result<StatusCode, Problem> {
-    let removal = app.store.forget(&caller.owner, job_id(id)?).await;
-    match removal.map_err(|error| unavailable(&app, &error))? {
+    let removal = calls.running.store.forget(&caller.owner, job_id(id)?).await;
+    match removal.map_err(|error| calls.unavailable(&error))? {
         Removal::Unknown => Err(no_such_job()),
         Removal::Unfinished => Err(Problem::new(ProblemKind::JobUnfinished, "cancel it first")),
         Removal::Forgotten => Ok(StatusCode::NO_CONTENT),
@@ -126,30 +128,29 @@ pub(in crate::api) async fn forget(
 }
 
 /// A job of the caller's.
-pub(super) async fn find(app: &App, owner: &Owner, id: JobId) -> Result<Job, Problem> {
-    let found = app.store.get(owner, id).await;
-    found.map_err(|error| unavailable(app, &error))?.ok_or_else(no_such_job)
+pub(super) async fn find(calls: &JobCalls, owner: &Owner, id: JobId) -> Result<Job, Problem> {
+    let found = calls.running.store.get(owner, id).await;
+    found.map_err(|error| calls.unavailable(&error))?.ok_or_else(no_such_job)
 }
 
 /// The job once it has ended, or as it stands when the time is over, the service shuts down or the key no longer holds.
-async fn wait_for(app: &App, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
+async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
-    let _waiting = app.waiting.try_acquire().map_err(|_| {
-        app.metrics.refused(Refusal::Limit);
-        Problem::new(ProblemKind::Overloaded, "as many clients wait for jobs as may; ask without waiting")
-    })?;
-    let watcher = app.store.hints().watch(id);
+    let waiting = calls.waiting.try_acquire();
+    let _waiting = waiting.map_err(|_| calls.too_many("as many clients wait for jobs as may; ask without waiting"))?;
+    let Running { store, draining, .. } = &*calls.running;
+    let watcher = store.hints().watch(id);
     loop {
         let changed = watcher.changed();
-        let job = find(app, &caller.owner, id).await?;
+        let job = find(calls, &caller.owner, id).await?;
         let left = wait.saturating_sub(started.elapsed());
-        if job.state.finished() || left.is_zero() || app.draining.begun() {
+        if job.state.finished() || left.is_zero() || draining.begun() {
             return Ok(job);
         }
         tokio::select! {
             () = changed => {}
             () = sleep(left.min(LOOK_AGAIN)) => {}
-            () = app.draining.wait() => {}
+            () = draining.wait() => {}
             () = caller.locked_out() => return Ok(job),
         }
     }

@@ -7,28 +7,36 @@ use axum::extract::rejection::PathRejection;
 use utoipa::IntoResponses;
 use utoipa::openapi::{RefOr, Response};
 
-use crate::api::app::App;
-use crate::api::document::problem;
+use super::calls::JobCalls;
+use crate::api::responses::problem;
 use crate::jobs::{JobId, StoreError, SubmitError};
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
-/// The store failed.
-pub(super) fn unavailable(app: &App, error: &StoreError) -> Problem {
-    app.metrics.refused(Refusal::StoreUnavailable);
-    tracing::warn!(%error, "a request was not answered");
-    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
-}
+impl JobCalls {
+    /// As many as may do this already do it.
+    pub(super) fn too_many(&self, detail: &str) -> Problem {
+        self.running.metrics.refused(Refusal::Limit);
+        Problem::new(ProblemKind::Overloaded, detail)
+    }
 
-/// Jobs were not accepted.
-pub(super) fn not_accepted(app: &App, error: SubmitError) -> Problem {
-    match error {
-        SubmitError::Full => {
-            app.metrics.refused(Refusal::Full);
-            Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
+    /// The store failed.
+    pub(super) fn unavailable(&self, error: &StoreError) -> Problem {
+        self.running.metrics.refused(Refusal::StoreUnavailable);
+        tracing::warn!(%error, "a request was not answered");
+        Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
+    }
+
+    /// Jobs were not accepted.
+    pub(super) fn not_accepted(&self, error: SubmitError) -> Problem {
+        match error {
+            SubmitError::Full => {
+                self.running.metrics.refused(Refusal::Full);
+                Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
+            }
+            SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
+            SubmitError::Store(error) => self.unavailable(&error),
         }
-        SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
-        SubmitError::Store(error) => unavailable(app, &error),
     }
 }
 

@@ -1,57 +1,49 @@
 //! Reads bodies without holding up the threads that serve connections, nor any answer past its time.
 
+use core::ops::Deref;
 use std::sync::OnceLock;
 
-use super::body::Received;
+use super::Computation;
+use super::engine::panicked;
 use super::problem::internal;
-use crate::wire::{Glance, PlanRequest, Problem, RequestLimits};
-use crate::workers::panicked;
+use crate::wire::{Glance, Problem, RequestLimits};
 
 /// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond. Larger ones are read by
 /// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
 /// glance must do, a millisecond for a megabyte.
 pub(super) const SMALL_BODY: usize = 16 * 1024;
 
-/// Reads a body.
-pub(super) type Read<R> = fn(&[u8], &RequestLimits) -> Result<R, Problem>;
-
 /// A body that has been read or will be.
-pub(super) struct Reading<R> {
+pub(super) struct Reading<C: Computation, B> {
     /// A large one, until the answer is there.
-    body: Option<Received>,
-    read: Read<R>,
+    body: Option<B>,
     limits: RequestLimits,
     glance: Glance,
-    request: OnceLock<R>,
+    request: OnceLock<C::Request>,
 }
 
 /// What is known of a request whose time is up.
-pub(super) enum Known<'a, R> {
+pub enum Known<'a, R> {
     /// All of it.
     Request(&'a R),
     /// It was too large to be read in time.
     Glance(&'a Glance),
 }
 
-impl<R: AsRef<PlanRequest>> Reading<R> {
+impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
     /// Read a small body, glance at a large one unless somebody has.
     ///
     /// # Errors
     /// A problem with every fault of a small body.
-    pub(super) fn begin(
-        body: Received,
-        glance: Option<Glance>,
-        read: Read<R>,
-        limits: RequestLimits,
-    ) -> Result<Self, Problem> {
+    pub(super) fn begin(body: B, glance: Option<Glance>, limits: RequestLimits) -> Result<Self, Problem> {
         if body.len() > SMALL_BODY {
             let glance = glance.unwrap_or_else(|| Glance::at(&body, &limits));
-            return Ok(Self { body: Some(body), read, limits, glance, request: OnceLock::new() });
+            return Ok(Self { body: Some(body), limits, glance, request: OnceLock::new() });
         }
-        let request = read(&body, &limits)?;
+        let request = C::read(&body, &limits)?;
         let known = request.as_ref();
         let glance = Glance { scene_id: known.scene_id.clone(), target: None, time_limit: known.time_limit };
-        Ok(Self { body: None, read, limits, glance, request: OnceLock::from(request) })
+        Ok(Self { body: None, limits, glance, request: OnceLock::from(request) })
     }
 
     fn bytes(&self) -> &[u8] {
@@ -67,11 +59,11 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
     ///
     /// # Errors
     /// A problem with every fault of the body.
-    pub(super) fn request(&self) -> Result<&R, Problem> {
+    pub(super) fn request(&self) -> Result<&C::Request, Problem> {
         if let Some(request) = self.request.get() {
             return Ok(request);
         }
-        let request = (self.read)(self.bytes(), &self.limits)?;
+        let request = C::read(self.bytes(), &self.limits)?;
         Ok(self.request.get_or_init(|| request))
     }
 
@@ -87,7 +79,7 @@ impl<R: AsRef<PlanRequest>> Reading<R> {
     }
 
     /// As much as is known by now.
-    pub(super) fn known(&self) -> Known<'_, R> {
+    pub(super) fn known(&self) -> Known<'_, C::Request> {
         self.request.get().map_or(Known::Glance(&self.glance), Known::Request)
     }
 }

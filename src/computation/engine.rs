@@ -56,7 +56,7 @@ fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
 }
 
 /// A computation panicked: log all that is needed to see it panic again.
-pub fn panicked(request: &PlanRequest) -> Problem {
+pub(super) fn panicked(request: &PlanRequest) -> Problem {
     let (scene, settings) = (written(request), &request.settings);
     tracing::error!(%scene, ?settings, "a computation panicked");
     Problem::new(ProblemKind::Internal, "the request could not be answered; the scene is in the log")

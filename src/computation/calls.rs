@@ -1,0 +1,128 @@
+//! The planning calls: plan, verify, survey, knowledge.
+
+use super::problem::{late, unread};
+use super::{Computation, Form, Known, Served, Tools, json};
+use crate::render;
+use crate::wire::{
+    AnswerBody, KnowledgeBody, PlanRequest, Problem, RequestLimits, SurveyBody, VerificationBody, VerifyRequest,
+    read_scene, read_verify,
+};
+use singulate_planner::budget::Budget;
+use singulate_planner::knowledge::NoBase;
+use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict, known};
+
+/// What must move so that the target can be grasped.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan(
+    /// As data or as a drawing.
+    pub Form,
+);
+
+impl Plan {
+    fn write(self, request: &PlanRequest, answer: &Answer) -> Served {
+        match self.0 {
+            Form::Json => json(&AnswerBody::new(request, answer)),
+            Form::Svg => Ok(render::svg(&request.scene, answer).into_bytes()),
+        }
+    }
+}
+
+impl Computation for Plan {
+    type Request = PlanRequest;
+
+    fn read(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
+        read_scene(body, limits)
+    }
+
+    fn compute(self, tools: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
+        let answer = tools.engine.answer(request, budget)?;
+        tools.metrics.planned(&answer);
+        self.write(request, &answer)
+    }
+
+    /// That there was no time is a verdict, with a drawing where the scene is known.
+    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+        match (known, self.0) {
+            (Known::Request(request), _) => {
+                let verdict = Verdict::TimedOut(Unplanned::default());
+                self.write(request, &Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
+            }
+            (Known::Glance(glance), Form::Json) => {
+                AnswerBody::unread(glance).map_or_else(|| Err(unread()), |body| json(&body))
+            }
+            (Known::Glance(_), Form::Svg) => Err(unread()),
+        }
+    }
+}
+
+/// Whether a stated answer holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Verification;
+
+impl Computation for Verification {
+    type Request = VerifyRequest;
+
+    fn read(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
+        read_verify(body, limits)
+    }
+
+    fn compute(self, tools: &Tools, stated: &VerifyRequest, budget: &Budget<'_>) -> Served {
+        let VerifyRequest { request, claim } = stated;
+        json(&VerificationBody::new(&(tools.engine.check)(&request.scene, claim, budget)))
+    }
+
+    fn too_late(self, _: Known<'_, VerifyRequest>) -> Served {
+        json(&VerificationBody::timed_out())
+    }
+}
+
+/// What each movable object would need as the target.
+#[derive(Debug, Clone, Copy)]
+pub struct Survey;
+
+impl Computation for Survey {
+    type Request = PlanRequest;
+
+    fn read(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
+        read_scene(body, limits)
+    }
+
+    fn compute(self, tools: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
+        json(&SurveyBody::new(&request.scene, &tools.engine.survey(request, budget)?))
+    }
+
+    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+        match known {
+            Known::Request(request) => json(&SurveyBody::timed_out(&request.scene)),
+            Known::Glance(_) => Err(unread()),
+        }
+    }
+}
+
+/// What is known of each object before any search.
+#[derive(Debug, Clone, Copy)]
+pub struct Knowledge;
+
+impl Computation for Knowledge {
+    type Request = PlanRequest;
+
+    fn read(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
+        read_scene(body, limits)
+    }
+
+    fn compute(self, _: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
+        let known = known(&request.scene, request.settings.grasp_model, budget);
+        let known = known.map_err(|error| match error {
+            NoBase::Interrupted => late(),
+            NoBase::TooLarge => Problem::too_dense(error.to_string()),
+        })?;
+        json(&KnowledgeBody::new(&request.scene, &known))
+    }
+
+    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+        match known {
+            Known::Request(_) => Err(late()),
+            Known::Glance(_) => Err(unread()),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What a planning call is: a body is read, an answer is computed from it, and something is said where time runs out first.
+//! [`Planning`] does this for every [`Computation`] alike. Those that there are stand in [`calls`].
+
+pub mod calls;
+mod engine;
+mod planning;
+mod problem;
+mod reading;
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+pub use engine::Engine;
+pub use planning::{Planning, note_scene};
+pub use problem::internal;
+pub use reading::Known;
+
+use crate::metrics::Metrics;
+use crate::wire::{PlanRequest, Problem, RequestLimits};
+use singulate_planner::budget::Budget;
+
+/// What a planning call asks for. Its value holds how the answer is wanted, if there is a choice.
+pub trait Computation: Copy + Send + Sync + 'static {
+    /// A body that has been read.
+    type Request: AsRef<PlanRequest> + Send + Sync + 'static;
+
+    /// Read a body.
+    ///
+    /// # Errors
+    /// A problem with every fault of the body.
+    fn read(body: &[u8], limits: &RequestLimits) -> Result<Self::Request, Problem>;
+
+    /// The answer, computed on a thread of the pool.
+    ///
+    /// # Errors
+    /// A problem where there is no answer.
+    fn compute(self, tools: &Tools, request: &Self::Request, budget: &Budget<'_>) -> Served;
+
+    /// What is left to say where the time limit came first.
+    ///
+    /// # Errors
+    /// A problem where that is nothing.
+    fn too_late(self, known: Known<'_, Self::Request>) -> Served;
+}
+
+/// What a computation needs besides its request.
+#[derive(Clone)]
+pub struct Tools {
+    /// What computes.
+    pub engine: Engine,
+    /// Where answers are counted.
+    pub metrics: Arc<Metrics>,
+}
+
+/// An answer's bytes.
+pub type Served = Result<Vec<u8>, Problem>;
+
+/// The form in which an answer is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// As data.
+    Json,
+    /// As a drawing.
+    Svg,
+}
+
+impl Form {
+    /// The form's name on the internet.
+    pub fn media_type(self) -> &'static str {
+        match self {
+            Self::Json => "application/json",
+            Self::Svg => "image/svg+xml",
+        }
+    }
+}
+
+/// An answer as JSON.
+fn json(body: &impl Serialize) -> Served {
+    serde_json::to_vec(body).map_err(|error| {
+        tracing::error!(%error, "an answer could not be written");
+        internal()
+    })
+}
