@@ -6,11 +6,11 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Error, Row, Transaction};
 
 use super::call::Decision;
+use super::database::Database;
 use super::dialect::Dialect;
 use super::events;
 use super::herald::News;
 use super::row;
-use super::store::SqlStore;
 use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
 use singulate_planner::budget::Incumbent;
 
@@ -92,7 +92,7 @@ impl Ending<'_> {
 
 /// A transaction that writes. Dropped without [`Self::commit`], nothing has happened.
 pub(super) struct Change<'a> {
-    store: &'a SqlStore,
+    database: &'a Database,
     transaction: Transaction<'static, Any>,
     decision: Decision,
     news: Vec<News>,
@@ -100,17 +100,17 @@ pub(super) struct Change<'a> {
 
 impl<'a> Change<'a> {
     /// To begin may take seconds; whoever asked for it may have given up by then.
-    pub(super) async fn begin(store: &'a SqlStore, decision: Decision) -> Result<Self, Error> {
-        let transaction = store.writers.begin_with(store.dialect.begin()).await?;
+    pub(super) async fn begin(database: &'a Database, decision: Decision) -> Result<Self, Error> {
+        let transaction = database.begin().await?;
         decision.open()?;
-        Ok(Self { store, transaction, decision, news: Vec::new() })
+        Ok(Self { database, transaction, decision, news: Vec::new() })
     }
 
     /// Everything is on disk, and whoever waits hears of it; or whoever asked for it has given up, and nothing happens.
     pub(super) async fn commit(self) -> Result<(), Error> {
         self.decision.commit()?;
         self.transaction.commit().await?;
-        self.store.herald.announce(&self.news);
+        self.database.herald.announce(&self.news);
         Ok(())
     }
 
@@ -119,11 +119,11 @@ impl<'a> Change<'a> {
     }
 
     pub(super) fn dialect(&self) -> Dialect {
-        self.store.dialect
+        self.database.dialect
     }
 
     pub(super) fn settings(&self) -> &'a JobSettings {
-        &self.store.settings
+        &self.database.settings
     }
 
     /// To be told once everything is on disk.

@@ -4,10 +4,10 @@ use sqlx::{AssertSqlSafe, Error, Row};
 
 use super::call::Decision;
 use super::change::{Change, Ending, STANDING, Standing};
+use super::database::Database;
 use super::events;
 use super::herald::News;
 use super::row;
-use super::store::SqlStore;
 use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
 use singulate_planner::budget::Incumbent;
 
@@ -115,8 +115,8 @@ pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timest
 }
 
 /// A claim that nobody has heard of is handed back.
-pub(super) async fn give_back(store: &SqlStore, claim: Claim, now: Timestamp) -> Result<(), Error> {
-    let mut change = Change::begin(store, Decision::default()).await?;
+pub(super) async fn give_back(database: &Database, claim: Claim, now: Timestamp) -> Result<(), Error> {
+    let mut change = Change::begin(database, Decision::default()).await?;
     hand_back(&mut change, claim, now).await?;
     change.commit().await
 }
