@@ -1,7 +1,10 @@
 //! A job as JSON: how it is described and written.
 
-use serde::Serialize;
-use serde_json::value::RawValue;
+use core::ops::Deref;
+use std::sync::Arc;
+
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use utoipa::ToSchema;
 
@@ -123,10 +126,51 @@ pub struct JobBody {
     pub incumbent: Option<IncumbentBody>,
     /// The answer. Null as long as there is none, and in lists: ask for the job itself.
     #[schema(required = true, value_type = Option<AnswerBody>)]
-    pub result: Option<Box<RawValue>>,
+    pub result: Option<RawJson>,
     /// Why there is no answer; null unless the job failed.
     #[schema(required = true, value_type = Option<Problem>)]
-    pub problem: Option<Box<RawValue>>,
+    pub problem: Option<RawJson>,
+}
+
+/// The name of the struct whose only field serde_json writes as it is: that of its own `RawValue`. That one can't be used
+/// here, since it parses all that it is made of.
+const AS_IT_IS: &str = "$serde_json::private::RawValue";
+
+/// JSON that was written once, by us. Clones share it, and it is served as it is: nobody parses it or writes it anew.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RawJson(Arc<str>);
+
+impl RawJson {
+    /// Write this.
+    ///
+    /// # Errors
+    /// If it can't be written as JSON.
+    pub fn write(body: &impl Serialize) -> serde_json::Result<Self> {
+        serde_json::to_string(body).map(|text| Self(text.into()))
+    }
+}
+
+/// What was written before, and kept.
+impl From<&str> for RawJson {
+    fn from(text: &str) -> Self {
+        Self(text.into())
+    }
+}
+
+impl Deref for RawJson {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl Serialize for RawJson {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut raw = serializer.serialize_struct(AS_IT_IS, 1)?;
+        raw.serialize_field(AS_IT_IS, &**self)?;
+        raw.end()
+    }
 }
 
 /// Jobs that were accepted.
@@ -161,4 +205,28 @@ pub fn queued_job() -> Value {
 
 fn one_queued() -> Value {
     json!([queued_job()])
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::value::to_raw_value;
+
+    use super::*;
+
+    #[test]
+    fn what_was_written_once_is_served_as_it_is() {
+        let text = r#"{"b": [1.50, "ü\n"],  "a": null}"#;
+        let kept = RawJson::from(text);
+        let served = serde_json::to_string(&[Some(&kept), None, Some(&kept.clone())]).unwrap();
+        assert_eq!(served, format!("[{text},null,{text}]"));
+        // Written by us or by serde_json, it is the same.
+        let theirs = to_raw_value(&json!({"z": [1, 2.5], "a": "ü"})).unwrap();
+        assert_eq!(&*RawJson::write(&theirs).unwrap(), theirs.get());
+    }
+
+    #[test]
+    fn clones_share_what_was_written() {
+        let kept = RawJson::from("{}");
+        assert!(Arc::ptr_eq(&kept.0, &kept.clone().0));
+    }
 }

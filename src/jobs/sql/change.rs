@@ -11,7 +11,7 @@ use super::dialect::Dialect;
 use super::events;
 use super::herald::News;
 use super::row;
-use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
+use crate::jobs::{Claim, End, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
 use singulate_planner::budget::Incumbent;
 
 /// What has to be known of a job before it is changed.
@@ -83,7 +83,15 @@ pub(super) struct Ending<'a> {
     pub(super) by: Option<i64>,
 }
 
-impl Ending<'_> {
+impl<'a> Ending<'a> {
+    /// In this state, with the answer or the problem of `end`.
+    pub(super) fn new(state: JobState, end: &'a End, by: Option<i64>) -> Self {
+        match end {
+            End::Succeeded(result) => Self { state, result: Some(result), problem: None, by },
+            End::Failed(problem) => Self { state, result: None, problem: Some(problem), by },
+        }
+    }
+
     /// In this state, without an answer and without a problem.
     pub(super) fn bare(state: JobState) -> Self {
         Self { state, result: None, problem: None, by: None }

@@ -36,6 +36,11 @@ pub(super) async fn submit(change: &mut Change<'_>, jobs: &[NewJob], now: Timest
     if queued.saturating_add(jobs.len()) > change.settings().max_queued {
         return Ok(Submitted::Full);
     }
+    accept(change, jobs, now).await.map(Submitted::Accepted)
+}
+
+/// All of them into the queue, each with its turn.
+async fn accept(change: &mut Change<'_>, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, Error> {
     let (mut turns, mut queue) = (HashMap::new(), Vec::with_capacity(jobs.len()));
     for (at, job) in jobs.iter().enumerate() {
         let turn = match turns.get(&(&job.owner, job.priority)) {
@@ -53,7 +58,7 @@ pub(super) async fn submit(change: &mut Change<'_>, jobs: &[NewJob], now: Timest
         change.announce(News { queued: true, ..News::of(job.id) });
     }
     accepted.sort_by_key(|(at, _)| *at);
-    Ok(Submitted::Accepted(accepted.into_iter().map(|(_, job)| job).collect()))
+    Ok(accepted.into_iter().map(|(_, job)| job).collect())
 }
 
 /// What the key says, if it came before.

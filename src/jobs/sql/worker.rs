@@ -92,12 +92,11 @@ pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now
     }
     let by = Some(claim.fence);
     let ending = match end {
-        End::Succeeded(result) if job.cancel_requested => {
-            Ending { state: JobState::Cancelled, result: Some(result), problem: None, by }
-        }
+        // Who cancelled it has no use for a problem.
         End::Failed(_) if job.cancel_requested => Ending { by, ..Ending::bare(JobState::Cancelled) },
-        End::Succeeded(result) => Ending { state: JobState::Succeeded, result: Some(result), problem: None, by },
-        End::Failed(problem) => Ending { state: JobState::Failed, result: None, problem: Some(problem), by },
+        _ if job.cancel_requested => Ending::new(JobState::Cancelled, end, by),
+        End::Succeeded(_) => Ending::new(JobState::Succeeded, end, by),
+        End::Failed(_) => Ending::new(JobState::Failed, end, by),
     };
     change.end(&job, &ending, now).await?;
     Ok(true)
