@@ -92,7 +92,7 @@ pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now
     }
     let by = Some(claim.fence);
     let ending = match end {
-        // Who cancelled it has no use for a problem.
+        // A cancelled job has no problem, whatever became of its plan.
         End::Failed(_) if job.cancel_requested => Ending { by, ..Ending::bare(JobState::Cancelled) },
         _ if job.cancel_requested => Ending::new(JobState::Cancelled, end, by),
         End::Succeeded(_) => Ending::new(JobState::Succeeded, end, by),
