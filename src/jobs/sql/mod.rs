@@ -3,7 +3,7 @@
 //!
 //! From below: the [`database`] has the connections; a [`change`] is one transaction in it, for which a [`call`] waits, and
 //! whoever must know hears of it from the [`herald`]; [`owner`], [`worker`], [`callbacks`] and [`sweep`] are the questions,
-//! by who asks them; [`store`] is the way in of all of them, and [`open`] makes it.
+//! by who asks them; [`store`] is the way in of all of them, and [`mod@open`] makes it.
 
 mod call;
 mod callbacks;
