@@ -6,7 +6,7 @@ use std::collections::{BinaryHeap, HashMap};
 use nalgebra::{Point2, Vector2};
 use rand_chacha::ChaCha8Rng;
 
-use super::generate::{Arrangement, GenerateError, Recipe, between, corners, whole_micrometres};
+use super::recipe::{Arrangement, GenerateError, Recipe, between, whole_micrometres};
 use singulate_planner::scene::{Disc, distance};
 
 /// How often a place is drawn for one disc before the attempt is given up.
@@ -45,7 +45,7 @@ struct Floor {
 
 impl Floor {
     fn new(recipe: &Recipe) -> Self {
-        let (min, max) = corners(recipe);
+        let (min, max) = recipe.corners();
         let cell = 2.0 * recipe.radius.1 + recipe.pressed_gap + 2.0 * ROUNDING;
         Self { min, max, cell, cells: HashMap::new(), discs: Vec::new() }
     }

@@ -1,6 +1,6 @@
 //! Why an experiment has no result.
 
-use super::generate::GenerateError;
+use super::recipe::GenerateError;
 use super::timed_search::Ending;
 use singulate_planner::knowledge::NoBase;
 use singulate_planner::plan::PlanError;

@@ -1,87 +1,11 @@
 //! From a recipe and a seed to a scene: the same bytes on any machine, since only + − × ÷ √ take part.
 
-use nalgebra::Point2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::arrange;
-use singulate_planner::scene::{
-    Disc, Finding, GripperDraft, LENGTH_RANGE, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft,
-    SceneLimits, TableDraft,
-};
-
-/// How the objects stand.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Arrangement {
-    /// Anywhere, evenly.
-    #[default]
-    Loose,
-    /// In one dense cluster, each object up to the recipe's gap from two others.
-    Pressed,
-}
-
-/// What kind of scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Recipe {
-    /// How many objects, the target included.
-    pub objects: usize,
-    /// Width and height of the table, m.
-    pub table: (f64, f64),
-    /// The table's lower left corner, m.
-    pub origin: (f64, f64),
-    /// The least and the greatest radius, m.
-    pub radius: (f64, f64),
-    /// The gripper.
-    pub gripper: GripperDraft,
-    /// How likely an object other than the target is fixed, 0 to 1.
-    pub fixed_share: f64,
-    /// How the objects stand.
-    pub arrangement: Arrangement,
-    /// The widest gap between an object of a pressed cluster and the two that it was put to, m.
-    pub pressed_gap: f64,
-}
-
-/// The paper's gripper and its Case I table with 16 objects.
-impl Default for Recipe {
-    fn default() -> Self {
-        let gripper = GripperDraft {
-            fingers: Some(3.0),
-            finger_width: Some(0.02),
-            clearance: Some(0.05),
-            margin: Some(0.0),
-            yaw_tolerance: Some(0.0),
-        };
-        Self {
-            objects: 16,
-            table: (1.2, 0.7),
-            origin: (0.0, 0.0),
-            radius: (0.075, 0.075),
-            gripper,
-            fixed_share: 0.0,
-            arrangement: Arrangement::Loose,
-            pressed_gap: 2e-3,
-        }
-    }
-}
-
-/// No scene can be made from the recipe.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum GenerateError {
-    /// The table is too full.
-    #[error("{fitted} of {wanted} objects fitted on the table")]
-    TooFull {
-        /// The most that stood on the table in any attempt.
-        fitted: usize,
-        /// What the recipe asks for.
-        wanted: usize,
-    },
-    /// A figure of the recipe makes no sense.
-    #[error("{0}")]
-    Recipe(&'static str),
-    /// The scene would be refused, by its table or its gripper.
-    #[error("{}", .0.iter().map(|finding| finding.flaw.to_string()).collect::<Vec<_>>().join("; "))]
-    Scene(Vec<Finding>),
-}
+use super::recipe::{GenerateError, Recipe, rectangle};
+use singulate_planner::scene::{Disc, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, TableDraft};
 
 /// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; no two discs overlap
 /// and none stands out over the table's edge. The target is the object with the closest crowd round it.
@@ -89,7 +13,7 @@ pub enum GenerateError {
 /// # Errors
 /// [`GenerateError`], with the number of objects that fitted where the table is too full.
 pub fn generate(recipe: &Recipe, seed: u64) -> Result<SceneDraft, GenerateError> {
-    check(recipe)?;
+    recipe.check()?;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let discs = arrange::discs(recipe, &mut random)?;
     let draft = draft(recipe, &discs);
@@ -105,24 +29,6 @@ pub fn generate(recipe: &Recipe, seed: u64) -> Result<SceneDraft, GenerateError>
     Ok(draft)
 }
 
-fn check(recipe: &Recipe) -> Result<(), GenerateError> {
-    let length = |value: f64| (LENGTH_RANGE.0..=LENGTH_RANGE.1).contains(&value);
-    let (least, greatest) = recipe.radius;
-    let faults = [
-        (recipe.objects == 0, "a scene has at least one object"),
-        (!(length(least) && length(greatest)), "a radius is between 1e-6 m and 1e3 m"),
-        (least > greatest, "the least radius is above the greatest"),
-        (!(0.0..=1.0).contains(&recipe.fixed_share), "the fixed share is between 0 and 1"),
-        (!(length(recipe.table.0) && length(recipe.table.1)), "a side of the table is between 1e-6 m and 1e3 m"),
-        (!(0.0..=1e3).contains(&recipe.pressed_gap), "the gap is between 0 and 1e3 m"),
-        (!(recipe.origin.0.is_finite() && recipe.origin.1.is_finite()), "the origin is not a place"),
-    ];
-    match faults.into_iter().find(|(wrong, _)| *wrong) {
-        Some((_, detail)) => Err(GenerateError::Recipe(detail)),
-        None => Ok(()),
-    }
-}
-
 fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
     let object = |(at, disc): (usize, &Disc)| ObjectDraft {
         id: Some(format!("o{at}")),
@@ -131,35 +37,13 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
         radius: Some(disc.radius),
         fixed: false,
     };
-    let (min, max) = corners(recipe);
+    let (min, max) = recipe.corners();
     SceneDraft {
         table: TableDraft { top: rectangle(min, max), keep_out: Vec::new() },
         gripper: recipe.gripper,
         objects: discs.iter().enumerate().map(object).collect(),
         target: Some("o0".to_owned()),
     }
-}
-
-/// The table's lower left and upper right corner.
-pub(super) fn corners(recipe: &Recipe) -> (Point2<f64>, Point2<f64>) {
-    let (x, y) = recipe.origin;
-    let micrometres = |x: f64, y: f64| Point2::new(whole_micrometres(x), whole_micrometres(y));
-    (micrometres(x, y), micrometres(x + recipe.table.0, y + recipe.table.1))
-}
-
-pub(super) fn rectangle(min: Point2<f64>, max: Point2<f64>) -> RectangleDraft {
-    RectangleDraft { x_min: Some(min.x), y_min: Some(min.y), x_max: Some(max.x), y_max: Some(max.y) }
-}
-
-/// A JSON file with more digits than this is a nuisance to read.
-pub(super) fn whole_micrometres(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
-}
-
-/// A number from `least` to `greatest`.
-pub(super) fn between(random: &mut ChaCha8Rng, (least, greatest): (f64, f64)) -> f64 {
-    let share: f64 = random.random();
-    least + share * (greatest - least)
 }
 
 /// The object with the most neighbours in reach of its grasp; of several the one whose neighbours stand closest.
@@ -190,6 +74,8 @@ fn most_crowded(scene: &Scene) -> ObjectIndex {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiments::recipe::Arrangement;
+    use singulate_planner::scene::GripperDraft;
 
     fn scene(recipe: &Recipe, seed: u64) -> Scene {
         Scene::new(generate(recipe, seed).unwrap(), &SceneLimits { overlap_tolerance: 0.0, ..SceneLimits::default() })

@@ -1,7 +1,7 @@
 //! The cases of the paper's section V, with what its Tables I and II print.
 
-use super::generate::Recipe;
 use super::interval::Interval;
+use super::recipe::Recipe;
 
 /// The episodes in each column of Table I.
 pub const TABLE1_EPISODES: usize = 20;

@@ -4,8 +4,9 @@ use core::cmp::Reverse;
 use core::time::Duration;
 
 use super::error::{Cause, ExperimentError};
-use super::generate::{GenerateError, generate};
+use super::generate::generate;
 use super::papers_cases::PapersCase;
+use super::recipe::GenerateError;
 use super::workers::Patience;
 use singulate_planner::budget::{Budget, Clock};
 use singulate_planner::knowledge::{KnowledgeBase, complete};

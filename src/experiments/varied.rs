@@ -4,7 +4,8 @@ use nalgebra::Point2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::generate::{Arrangement, GenerateError, Recipe, between, corners, generate, rectangle, whole_micrometres};
+use super::generate::generate;
+use super::recipe::{Arrangement, GenerateError, Recipe, between, rectangle, whole_micrometres};
 use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft};
 
 /// Some scene: 2 to 6 fingers, 2 to 80 objects (fewer where they don't fit), equal and mixed radii, loose and pressed,
@@ -90,7 +91,7 @@ fn gripper(random: &mut ChaCha8Rng) -> GripperDraft {
 
 /// A keep-out rectangle in the table's lower left corner.
 fn corner(recipe: &Recipe, random: &mut ChaCha8Rng) -> RectangleDraft {
-    let (min, max) = corners(recipe);
+    let (min, max) = recipe.corners();
     let mut side = |min: f64, max: f64| whole_micrometres(min + (max - min) * between(random, (0.1, 0.4)));
     rectangle(min, Point2::new(side(min.x, max.x), side(min.y, max.y)))
 }

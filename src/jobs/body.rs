@@ -1,8 +1,7 @@
 //! A job in the words of the wire.
 
-use serde_json::value::RawValue;
-
 use super::job::{Event, EventKind, Job, JobState};
+use super::timestamp::Timestamp;
 use crate::wire::{IncumbentBody, JobBody, JobStateWord};
 use singulate_planner::budget::Incumbent;
 
@@ -22,8 +21,8 @@ impl Job {
             scene_sha256: self.scene_sha256.clone(),
             version: self.version.clone().unwrap_or_else(|| env!("CARGO_PKG_VERSION").to_owned()),
             incumbent: self.incumbent.map(|Incumbent { cost, lower_bound }| IncumbentBody { cost, lower_bound }),
-            result: self.result.clone().and_then(raw),
-            problem: self.problem.clone().and_then(raw),
+            result: self.result.clone(),
+            problem: self.problem.clone(),
         }
     }
 
@@ -32,22 +31,29 @@ impl Job {
     pub fn as_of(&self, event: &Event) -> Self {
         let Event { attempts, incumbent, queue_position, .. } = *event;
         let then = Self { attempts, incumbent, queue_position, ..self.clone() };
-        // As long after its beginning as it is kept after its end.
-        let expires_at =
-            then.finished_at.map_or(then.expires_at, |end| then.created_at.after(then.expires_at.since(end)));
-        let unfinished =
-            Self { finished_at: None, expires_at, result: None, problem: None, version: None, ..then.clone() };
-        let begun =
-            self.events.iter().rev().find(|other| {
-                other.kind == EventKind::Running && other.attempts == event.attempts && other.at <= event.at
-            });
         match event.kind {
             EventKind::Finished => then,
-            EventKind::Queued => Self { state: JobState::Queued, started_at: None, ..unfinished },
+            EventKind::Queued => Self { state: JobState::Queued, started_at: None, ..then.unfinished() },
             EventKind::Running | EventKind::Incumbent => {
-                Self { state: JobState::Running, started_at: begun.map(|event| event.at), ..unfinished }
+                Self { state: JobState::Running, started_at: self.begun_before(event), ..then.unfinished() }
             }
         }
+    }
+
+    /// As if it had not ended.
+    fn unfinished(self) -> Self {
+        // As long after its beginning as it is kept after its end.
+        let kept = |end| self.created_at.after(self.expires_at.since(end));
+        let expires_at = self.finished_at.map_or(self.expires_at, kept);
+        Self { finished_at: None, expires_at, result: None, problem: None, version: None, ..self }
+    }
+
+    /// When the attempt of this event began.
+    fn begun_before(&self, event: &Event) -> Option<Timestamp> {
+        let begins = |other: &&Event| {
+            other.kind == EventKind::Running && other.attempts == event.attempts && other.at <= event.at
+        };
+        self.events.iter().rev().find(begins).map(|event| event.at)
     }
 }
 
@@ -66,9 +72,4 @@ fn word(state: JobState) -> JobStateWord {
         JobState::Cancelled => JobStateWord::Cancelled,
         JobState::Expired => JobStateWord::Expired,
     }
-}
-
-/// What was kept was written as JSON by us.
-fn raw(json: String) -> Option<Box<RawValue>> {
-    RawValue::from_string(json).ok()
 }

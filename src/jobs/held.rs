@@ -7,10 +7,10 @@ use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval_at, sleep_until};
 use tokio_util::sync::CancellationToken;
 
-use super::job::End;
-use super::pause::Pause;
+use super::end::End;
 use super::store::{Claim, Renewal, Store, StoreError};
 use super::timestamp::{Timestamp, WallClock};
+use super::upkeep::Pause;
 use singulate_planner::budget::Incumbent;
 
 /// The least time between two notes of the best so far: nobody reads faster, and each is a write.

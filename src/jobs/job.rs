@@ -6,7 +6,11 @@ use core::str::FromStr;
 use uuid::Uuid;
 
 use super::timestamp::Timestamp;
+use crate::wire::RawJson;
 use singulate_planner::budget::Incumbent;
+
+/// How often a job may be begun. Whatever ended three workers would end a fourth.
+pub const MAX_ATTEMPTS: u32 = 3;
 
 /// A job's name. Later jobs have greater ids, to the millisecond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -157,9 +161,9 @@ pub struct Job {
     /// The best so far.
     pub incumbent: Option<Incumbent>,
     /// The answer as JSON.
-    pub result: Option<String>,
+    pub result: Option<RawJson>,
     /// The problem as JSON.
-    pub problem: Option<String>,
+    pub problem: Option<RawJson>,
     /// The version of the service that ended it.
     pub version: Option<String>,
     /// All that has happened, first things first. The event's number is its place in the list, from 1.
@@ -204,13 +208,4 @@ impl EventKind {
             Self::Finished => "finished",
         }
     }
-}
-
-/// How a running job ends. A job whose caller cancelled it ends as cancelled, with the answer if there is one.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum End {
-    /// With this answer, as JSON.
-    Succeeded(String),
-    /// With this problem, as JSON.
-    Failed(String),
 }

@@ -5,17 +5,16 @@
 
 mod body;
 mod callback;
+mod end;
 mod held;
 mod hints;
 mod job;
-mod log;
-mod pause;
 mod runner;
 mod settings;
 mod sql;
 mod store;
-mod sweeper;
 mod timestamp;
+mod upkeep;
 mod work;
 
 pub use body::message;
@@ -23,14 +22,14 @@ pub use callback::{
     CallbackAllow, CallbackDelivery, CallbackFault, CallbackSecret, CallbackUrl, client_builder, trusted_roots,
 };
 pub(crate) use callback::{client_builder_with, innermost};
+pub use end::{End, job_ended};
 pub use hints::{Hints, Watcher};
-pub use job::{End, Event, EventKind, Job, JobId, JobState, NewJob, Owner};
-pub use log::job_ended;
+pub use job::{Event, EventKind, Job, JobId, JobState, MAX_ATTEMPTS, NewJob, Owner};
 pub use runner::Runner;
 pub use settings::JobSettings;
 pub use sql::{OpenError, open};
 pub use store::{
-    Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_ATTEMPTS, MAX_INCUMBENT_EVENTS, Page, Removal,
-    Renewal, Store, StoreError, SubmitError, Swept,
+    Callback, Cancellation, Claim, Claimed, Counts, Delivery, MAX_INCUMBENT_EVENTS, Page, Removal, Renewal, Store,
+    StoreError, SubmitError, Swept,
 };
 pub use timestamp::{Timestamp, WallClock};

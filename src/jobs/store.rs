@@ -21,13 +21,12 @@ use core::time::Duration;
 
 use async_trait::async_trait;
 
+use super::end::End;
 use super::hints::Hints;
-use super::job::{End, Job, JobId, JobState, NewJob, Owner};
+use super::job::{Job, JobId, JobState, NewJob, Owner};
 use super::timestamp::{Timestamp, WallClock};
 use singulate_planner::budget::Incumbent;
 
-/// How often a job may be begun. Whatever ended three workers would end a fourth.
-pub const MAX_ATTEMPTS: u32 = 3;
 /// The most events of incumbents of one job; what comes later still is the job's `incumbent`.
 pub const MAX_INCUMBENT_EVENTS: usize = 100;
 

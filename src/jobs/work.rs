@@ -1,19 +1,25 @@
-//! One claimed job on its way through a worker.
+//! One claimed job on its way through a worker: its plan, and its lines in the log.
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use tokio::sync::watch;
 
-use super::job::End;
+use super::end::Concluded;
+use super::job::{JobId, Owner};
+use super::store::{Claim, Claimed};
+use super::timestamp::Timestamp;
 use crate::computation::Engine;
-use crate::metrics::Metrics;
-use crate::wire::{AnswerBody, Cause, Glance, Problem, ProblemKind, RequestLimits, VerdictWord, read_job};
+use crate::metrics::{Ended, Metrics, milliseconds};
+use crate::wire::{AnswerBody, Glance, Problem, RequestLimits, read_job};
 use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
 use singulate_planner::budget::{Budget, Incumbent};
 
 /// The store has seen to the turns of owners; a job that it gave is not to wait for another's.
 const WORKER: &str = "worker";
+
+/// The fence of a job's first claim.
+const FIRST: i64 = 1;
 
 /// What a worker needs besides the job.
 #[derive(Clone)]
@@ -23,35 +29,9 @@ pub(super) struct Tools {
     pub(super) metrics: Arc<Metrics>,
 }
 
-/// An answer as it is kept.
-struct Written {
-    verdict: VerdictWord,
-    json: String,
-}
-
-/// How a worker's job ends, and the same in short.
-pub(super) struct Concluded {
-    pub(super) end: End,
-    pub(super) verdict: Option<VerdictWord>,
-    pub(super) cause: Option<Cause>,
-}
-
-impl From<Result<Written, Problem>> for Concluded {
-    fn from(outcome: Result<Written, Problem>) -> Self {
-        match outcome {
-            Ok(Written { verdict, json }) => Self { end: End::Succeeded(json), verdict: Some(verdict), cause: None },
-            Err(problem) => {
-                // A problem is made of strings and numbers.
-                let end = End::Failed(serde_json::to_string(&problem).unwrap_or_default());
-                Self { end, verdict: None, cause: Some(problem.cause()) }
-            }
-        }
-    }
-}
-
 /// A job that a worker has.
 pub(super) struct Work {
-    pending: Pending<Result<Written, Problem>>,
+    pending: Pending<Concluded>,
     body: Arc<Vec<u8>>,
     glance: Glance,
 }
@@ -74,7 +54,10 @@ impl Work {
             let observer = |incumbent| {
                 watcher.send_if_modified(|last| last.replace(incumbent) != Some(incumbent));
             };
-            plan(&own, &tools, &budget.observed(&observer))
+            match plan(&own, &tools, &budget.observed(&observer)) {
+                Ok(answer) => (&answer).into(),
+                Err(problem) => problem.into(),
+            }
         };
         let pending = pool.submit(WORKER, arrival, glance.time_limit, job)?;
         Ok(Self { pending, body, glance })
@@ -92,35 +75,54 @@ impl Work {
 
     /// How the job ends.
     pub(super) async fn end(self) -> Concluded {
-        let ended = match self.pending.outcome().await {
-            Outcome::Done(answer) => answer,
+        match self.pending.outcome().await {
+            Outcome::Done(concluded) => concluded,
             // Only a planner that forgets the time is not waited for; nothing of what it knows is at hand.
-            Outcome::TimedOut => AnswerBody::unread(&self.glance).ok_or_else(internal).and_then(|body| written(&body)),
+            Outcome::TimedOut => {
+                AnswerBody::unread(&self.glance).map_or_else(Concluded::internal, |answer| (&answer).into())
+            }
             Outcome::Panicked => {
                 tracing::error!(scene = %String::from_utf8_lossy(&self.body), "planning panicked");
-                Err(internal())
+                Concluded::internal()
             }
-        };
-        ended.into()
+        }
     }
 }
 
-fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<Written, Problem> {
+fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<AnswerBody, Problem> {
     // It was read before it was accepted; but that may have been another version, with other limits.
     let request = read_job(body, &tools.limits)?.plan;
     let answer = tools.engine.answer(&request, budget)?;
     tools.metrics.planned(&answer);
-    written(&AnswerBody::new(&request, &answer))
+    Ok(AnswerBody::new(&request, &answer))
 }
 
-fn written(body: &AnswerBody) -> Result<Written, Problem> {
-    let json = serde_json::to_string(body).map_err(|error| {
-        tracing::error!(%error, "an answer could not be written");
-        internal()
-    })?;
-    Ok(Written { verdict: body.verdict, json })
+/// One worker's lines about one job.
+#[derive(Debug)]
+pub(super) struct Lines {
+    job: JobId,
+    owner: Owner,
+    scene_id: Option<String>,
+    started: Instant,
 }
 
-fn internal() -> Problem {
-    Problem::new(ProblemKind::Internal, "the job could not be planned")
+impl Lines {
+    /// The worker begins. A job that was claimed before is resumed: its worker was lost, or handed it back, or never heard of the claim.
+    pub(super) fn begin(claimed: &Claimed, scene_id: Option<String>) -> Self {
+        let Claimed { claim: Claim { id: job, fence }, owner, attempt, created_at, .. } = claimed;
+        let age_ms = milliseconds(Timestamp::now().since(*created_at));
+        let what = if *fence > FIRST { "job resumed" } else { "job started" };
+        tracing::info!(%job, owner = owner.as_str(), scene_id, attempt, age_ms, "{what}");
+        Self { job: *job, owner: owner.clone(), scene_id, started: Instant::now() }
+    }
+
+    /// The job has ended in this state, and that is kept.
+    pub(super) fn end(&self, state: Ended, concluded: &Concluded) {
+        let Self { job, owner, scene_id, started } = self;
+        let (owner, state, ms) = (owner.as_str(), state.as_str(), milliseconds(started.elapsed()));
+        let verdict = concluded.verdict.map(tracing::field::display);
+        let problem = concluded.cause.map(|cause| tracing::field::display(cause.problem));
+        let code = concluded.cause.and_then(|cause| cause.code).map(tracing::field::display);
+        tracing::info!(%job, owner, scene_id, state, verdict, problem, code, ms, "job ended");
+    }
 }

@@ -1,7 +1,11 @@
 //! A job as JSON: how it is described and written.
 
-use serde::Serialize;
-use serde_json::value::RawValue;
+use core::ops::Deref;
+use core::str::FromStr;
+use std::sync::Arc;
+
+use serde::{Serialize, Serializer};
+use serde_json::value::{RawValue, to_raw_value};
 use serde_json::{Value, json};
 use utoipa::ToSchema;
 
@@ -123,10 +127,56 @@ pub struct JobBody {
     pub incumbent: Option<IncumbentBody>,
     /// The answer. Null as long as there is none, and in lists: ask for the job itself.
     #[schema(required = true, value_type = Option<AnswerBody>)]
-    pub result: Option<Box<RawValue>>,
+    pub result: Option<RawJson>,
     /// Why there is no answer; null unless the job failed.
     #[schema(required = true, value_type = Option<Problem>)]
-    pub problem: Option<Box<RawValue>>,
+    pub problem: Option<RawJson>,
+}
+
+/// JSON that was written once, by us. Clones share it, and it is served as it is: nobody builds a value of it or writes it
+/// anew.
+#[derive(Debug, Clone)]
+pub struct RawJson(Arc<RawValue>);
+
+impl RawJson {
+    /// Write this.
+    ///
+    /// # Errors
+    /// If it can't be written as JSON.
+    pub fn write(body: &impl Serialize) -> serde_json::Result<Self> {
+        to_raw_value(body).map(|text| Self(text.into()))
+    }
+}
+
+/// What was written before, and kept. An error if it is no JSON.
+impl FromStr for RawJson {
+    type Err = serde_json::Error;
+
+    fn from_str(text: &str) -> serde_json::Result<Self> {
+        RawValue::from_string(text.to_owned()).map(|text| Self(text.into()))
+    }
+}
+
+impl Deref for RawJson {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        self.0.get()
+    }
+}
+
+impl Eq for RawJson {}
+
+impl PartialEq for RawJson {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl Serialize for RawJson {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
 }
 
 /// Jobs that were accepted.
@@ -161,4 +211,25 @@ pub fn queued_job() -> Value {
 
 fn one_queued() -> Value {
     json!([queued_job()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_written_once_is_served_as_it_is() {
+        let text = r#"{"b": [1.50, "ü\n"],  "a": null}"#;
+        let kept = text.parse::<RawJson>().unwrap();
+        let served = serde_json::to_string(&[Some(&kept), None, Some(&kept.clone())]).unwrap();
+        assert_eq!(served, format!("[{text},null,{text}]"));
+        assert_eq!(&*RawJson::write(&json!({"z": [1, 2.5], "a": "ü"})).unwrap(), r#"{"z":[1,2.5],"a":"ü"}"#);
+        assert!("{".parse::<RawJson>().is_err());
+    }
+
+    #[test]
+    fn clones_share_what_was_written() {
+        let kept: RawJson = "{}".parse().unwrap();
+        assert!(Arc::ptr_eq(&kept.0, &kept.clone().0));
+    }
 }

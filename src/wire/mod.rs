@@ -34,7 +34,9 @@ pub use answer::{
 pub use claim::{VerifyRequest, read_plan, read_verify};
 pub use code::ErrorCode;
 pub use glance::Glance;
-pub use job::{BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody, queued_job};
+pub use job::{
+    BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody, RawJson, queued_job,
+};
 pub use job_request::{JobRequest, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};

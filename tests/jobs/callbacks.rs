@@ -17,7 +17,7 @@ fn calling() -> NewJob {
 async fn ended(store: &Arc<dyn Store>) -> JobId {
     let id = submitted(store, calling()).await.id;
     let claim = claimed(store, 5).await.claim;
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(10)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(10)).await.unwrap());
     id
 }
 
@@ -34,7 +34,7 @@ pub(crate) async fn a_callback_is_due_at_the_end(home: &Home) {
     let claim = claimed(&store, 9).await.claim;
     assert_eq!(claim.id, waiting);
     assert_eq!(store.take_callback(LEASE, &at(9).into()).await.unwrap(), None);
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(10)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(10)).await.unwrap());
     let callback = store.take_callback(LEASE, &at(10).into()).await.unwrap().unwrap();
     assert_eq!((callback.url.as_str(), callback.attempt), ("https://example.org/told", 1));
     assert_eq!(callback.job, seen(&store, waiting).await);
@@ -80,7 +80,7 @@ pub(crate) async fn every_kind_of_end_is_called_back(home: &Home) {
     store.cancel(&ann(), cancelled, at(1)).await.unwrap();
     let failed = submitted(&store, calling()).await.id;
     let claim = claimed(&store, 2).await.claim;
-    assert!(store.finish(claim, &End::Failed("{}".to_owned()), at(2)).await.unwrap());
+    assert!(store.finish(claim, &End::Failed("{}".parse().unwrap()), at(2)).await.unwrap());
     let poisoned = submitted(&store, calling()).await.id;
     for millis in [100, 300, 500] {
         claimed(&store, millis).await;

@@ -28,7 +28,7 @@ pub(crate) async fn a_running_job_is_cancelled_with_its_answer(home: &Home) {
         assert_eq!((job.state, job.finished_at), (JobState::Running, None));
     }
     assert_eq!(store.renew(claim, &at(5).into()).await.unwrap(), Renewal::Cancelled);
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(6)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(6)).await.unwrap());
     let ended = seen(&store, id).await;
     assert_eq!((ended.state, ended.result.as_deref()), (JobState::Cancelled, Some("{}")));
     assert_eq!(ended.finished_at, Some(at(6)));
@@ -40,7 +40,7 @@ pub(crate) async fn a_cancelled_job_that_fails_has_no_answer(home: &Home) {
     let claim = claimed(&store, 1).await.claim;
     store.cancel(&ann(), id, at(2)).await.unwrap();
     for _ in 0..2 {
-        assert!(store.finish(claim, &End::Failed("{}".to_owned()), at(3)).await.unwrap());
+        assert!(store.finish(claim, &End::Failed("{}".parse().unwrap()), at(3)).await.unwrap());
     }
     let ended = seen(&store, id).await;
     assert_eq!((ended.state, ended.result, ended.problem), (JobState::Cancelled, None, None));
@@ -52,7 +52,7 @@ pub(crate) async fn what_has_ended_is_not_cancelled(home: &Home) {
     assert_eq!(store.cancel(&bob(), id, at(1)).await.unwrap(), Cancellation::Unknown);
     assert_eq!(store.cancel(&ann(), job().id, at(1)).await.unwrap(), Cancellation::Unknown);
     let claim = claimed(&store, 1).await.claim;
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(2)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(2)).await.unwrap());
     let ended = seen(&store, id).await;
     assert_eq!(store.cancel(&ann(), id, at(3)).await.unwrap(), Cancellation::Finished);
     assert_eq!(seen(&store, id).await, ended);
@@ -64,12 +64,12 @@ pub(crate) async fn only_what_has_ended_is_forgotten(home: &Home) {
     assert_eq!(store.forget(&ann(), id).await.unwrap(), Removal::Unfinished);
     let claim = claimed(&store, 1).await.claim;
     assert_eq!(store.forget(&ann(), id).await.unwrap(), Removal::Unfinished);
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(2)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(2)).await.unwrap());
     assert_eq!(store.forget(&bob(), id).await.unwrap(), Removal::Unknown);
     assert_eq!(store.forget(&ann(), id).await.unwrap(), Removal::Forgotten);
     assert_eq!(store.forget(&ann(), id).await.unwrap(), Removal::Unknown);
     assert_eq!(store.get(&ann(), id).await.unwrap(), None);
-    assert!(!store.finish(claim, &End::Succeeded("{}".to_owned()), at(3)).await.unwrap());
+    assert!(!store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(3)).await.unwrap());
 }
 
 pub(crate) async fn a_job_that_waited_too_long_expires(home: &Home) {

@@ -44,7 +44,7 @@ pub(crate) async fn a_change_wakes_who_waits_for_it(home: &Home) {
     let claim = waking(&watcher, store.claim(&at(1).into())).await.unwrap().claim;
     waking(&watcher, store.note(claim, Incumbent { cost: 2, lower_bound: 1 }, at(2))).await;
     waking(&watcher, store.cancel(&ann(), id, at(3))).await;
-    waking(&watcher, store.finish(claim, &End::Succeeded("{}".to_owned()), at(4))).await;
+    waking(&watcher, store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(4))).await;
     woken(&store.hints().callbacks).await;
     waking(&watcher, store.forget(&ann(), id)).await;
     let late = submitted(&store, job()).await.id;

@@ -12,7 +12,7 @@ pub(crate) async fn a_known_key_gives_the_same_jobs(home: &Home) {
     assert_eq!(first.iter().map(|job| job.id).collect::<Vec<_>>(), ids);
     assert_eq!(first.iter().filter_map(|job| job.queue_position).collect::<Vec<_>>(), [1, 2, 3, 4, 5]);
     let work = claimed(&store, 1).await;
-    assert!(store.finish(work.claim, &End::Succeeded("{}".to_owned()), at(2)).await.unwrap());
+    assert!(store.finish(work.claim, &End::Succeeded("{}".parse().unwrap()), at(2)).await.unwrap());
     let again: Vec<NewJob> = (0..5).map(|position| keyed("k", position)).collect();
     let second = store.submit(&again, at(3)).await.unwrap();
     assert_eq!(second.iter().map(|job| job.id).collect::<Vec<_>>(), ids);

@@ -8,7 +8,7 @@ use singulate_planner::budget::Incumbent;
 use crate::home::{Home, ann, at, claimed, job, seen, submitted};
 
 fn answer() -> End {
-    End::Succeeded("{}".to_owned())
+    End::Succeeded("{}".parse().unwrap())
 }
 
 pub(crate) async fn a_worker_that_renews_keeps_its_job(home: &Home) {

@@ -3,6 +3,7 @@
 use core::cmp::Reverse;
 
 use singulate::jobs::{Claim, Event, EventKind, Job, JobId, JobState, MAX_ATTEMPTS, NewJob, Owner, Swept, Timestamp};
+use singulate::wire::RawJson;
 use singulate_planner::budget::Incumbent;
 
 use crate::home::{LEASE, TTL};
@@ -151,8 +152,9 @@ impl Model {
             return self.find(claim.id).is_some_and(|entry| entry.ended_by == Some(claim.fence));
         };
         entry.ended_by = Some(claim.fence);
-        entry.job.result = answer.ok().map(str::to_owned);
-        entry.job.problem = answer.err().filter(|_| !entry.cancel_requested).map(str::to_owned);
+        let kept = |text: &str| text.parse::<RawJson>().expect("JSON");
+        entry.job.result = answer.ok().map(kept);
+        entry.job.problem = answer.err().filter(|_| !entry.cancel_requested).map(kept);
         let state = match answer {
             _ if entry.cancel_requested => JobState::Cancelled,
             Ok(_) => JobState::Succeeded,

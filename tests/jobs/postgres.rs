@@ -23,7 +23,7 @@ async fn a_change_wakes_who_waits_on_another_server() {
     let changed = watcher.changed();
     let claim = claimed(&here, 1).await.claim;
     timeout(PATIENCE, changed).await.expect("the change is heard");
-    assert!(here.finish(claim, &End::Succeeded("{}".to_owned()), at(2)).await.unwrap());
+    assert!(here.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(2)).await.unwrap());
     timeout(PATIENCE, there.hints().callbacks.notified()).await.expect("a callback is due");
     drop((here, there));
     home.remove().await;

@@ -66,7 +66,7 @@ async fn three(store: &Arc<dyn Store>) -> [Job; 3] {
     let url = Some("https://example.org".to_owned());
     let ended = submitted(store, NewJob { callback_url: url, ..job() }).await.id;
     let claim = claimed(store, 0).await.claim;
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(1)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(1)).await.unwrap());
     let queued = submitted(store, job()).await.id;
     [seen(store, queued).await, seen(store, running).await, seen(store, ended).await]
 }
@@ -76,7 +76,7 @@ pub(crate) async fn what_has_timed_out_has_not_happened(home: &Home) {
     let before = three(&store).await;
     let [queued, running, ended] = before.each_ref().map(|job| job.id);
     let claim = Claim { id: running, fence: 1 };
-    let (owner, new, end) = (ann(), [job()], End::Succeeded("{}".to_owned()));
+    let (owner, new, end) = (ann(), [job()], End::Succeeded("{}".parse().unwrap()));
     let lock = WriteLock::on(home).await;
     let clock = at(50).into();
     let failed = tokio::join!(
@@ -137,7 +137,7 @@ pub(crate) async fn a_callback_that_nobody_waits_for_any_more_is_due_at_once(hom
     let url = Some("https://example.org".to_owned());
     submitted(&store, NewJob { callback_url: url, ..job() }).await;
     let claim = claimed(&store, 1).await.claim;
-    assert!(store.finish(claim, &End::Succeeded("{}".to_owned()), at(2)).await.unwrap());
+    assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(2)).await.unwrap());
     begin_and_go(store.take_callback(LEASE, &at(3).into())).await;
     let callback = once(async || store.take_callback(LEASE, &at(4).into()).await.unwrap()).await;
     assert_eq!(callback.attempt, 1);

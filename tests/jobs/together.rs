@@ -91,7 +91,7 @@ pub(crate) async fn of_two_ends_at_once_one_counts(home: &Home) {
         let claim = claimed(&stores[0], 1).await.claim;
         let (sweeper, worker) = (Arc::clone(&stores[0]), Arc::clone(&stores[1]));
         let swept = tokio::spawn(async move { sweeper.sweep(at(101)).await.unwrap() });
-        let finished = worker.finish(claim, &End::Succeeded("{}".to_owned()), at(101)).await.unwrap();
+        let finished = worker.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(101)).await.unwrap();
         let requeued = swept.await.unwrap().requeued;
         assert_eq!(requeued.len(), usize::from(!finished));
         let state = seen(&stores[0], id).await.state;

@@ -11,9 +11,8 @@ use tokio::task::JoinSet;
 use tokio::time::{sleep, timeout};
 
 use super::allow::CallbackAllow;
-use super::client::{client_builder, innermost, trusted_roots};
+use super::client::{AllowedAddresses, Lookup, client_builder, innermost, system, trusted_roots};
 use super::destination::{CallbackFault, CallbackUrl};
-use super::resolve::{AllowedAddresses, Lookup, system};
 use super::sign::{CallbackSecret, SIGNATURE_HEADER, TIMESTAMP_HEADER};
 use super::silent::SilentReceivers;
 use crate::jobs::job::{Job, JobId};

@@ -8,11 +8,8 @@ mod allow;
 mod client;
 mod deliver;
 mod destination;
-mod resolve;
 mod sign;
 mod silent;
-#[cfg(test)]
-mod tests;
 
 pub use allow::CallbackAllow;
 pub use client::{client_builder, trusted_roots};
@@ -20,3 +17,12 @@ pub(crate) use client::{client_builder_with, innermost};
 pub use deliver::CallbackDelivery;
 pub use destination::{CallbackFault, CallbackUrl};
 pub use sign::CallbackSecret;
+
+/// Callbacks on their way to receivers that do all that receivers do. Times are short only where a test waits for them.
+#[cfg(test)]
+mod tests {
+    mod delivery;
+    mod receiver;
+    mod refusal;
+    mod store;
+}

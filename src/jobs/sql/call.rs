@@ -11,7 +11,7 @@ use tokio::time::error::Elapsed;
 use tokio::time::{Instant, timeout};
 use tokio_util::task::TaskTracker;
 
-use crate::jobs::pause::Pause;
+use crate::jobs::upkeep::Pause;
 
 /// How long a caller waits besides for a commit that has begun, which can't be taken back.
 const COMMIT_PATIENCE: Duration = Duration::from_secs(2);

@@ -6,9 +6,9 @@ use sqlx::{AssertSqlSafe, Error, Row};
 
 use super::call::Decision;
 use super::change::Change;
+use super::database::Database;
 use super::herald::News;
 use super::row;
-use super::store::SqlStore;
 use crate::jobs::{Callback, Delivery, JobId, Timestamp, WallClock};
 
 /// The lease begins once the callback is ours: another's lock may have kept us waiting.
@@ -47,8 +47,8 @@ pub(super) async fn settle(change: &mut Change<'_>, id: JobId, attempt: u32, del
 }
 
 /// A callback that nobody has heard of is due at once, and was never tried.
-pub(super) async fn give_back(store: &SqlStore, id: JobId, attempt: u32, now: Timestamp) -> Result<(), Error> {
-    let mut change = Change::begin(store, Decision::default()).await?;
+pub(super) async fn give_back(database: &Database, id: JobId, attempt: u32, now: Timestamp) -> Result<(), Error> {
+    let mut change = Change::begin(database, Decision::default()).await?;
     let query = sqlx::query(
         "UPDATE jobs SET callback_due = $3, callback_attempt = callback_attempt - 1 \
          WHERE id = $1 AND callback_attempt = $2 AND callback_due IS NOT NULL",

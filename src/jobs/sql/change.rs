@@ -6,12 +6,12 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Error, Row, Transaction};
 
 use super::call::Decision;
+use super::database::Database;
 use super::dialect::Dialect;
 use super::events;
 use super::herald::News;
 use super::row;
-use super::store::SqlStore;
-use crate::jobs::{Claim, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
+use crate::jobs::{Claim, End, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
 use singulate_planner::budget::Incumbent;
 
 /// What has to be known of a job before it is changed.
@@ -83,7 +83,15 @@ pub(super) struct Ending<'a> {
     pub(super) by: Option<i64>,
 }
 
-impl Ending<'_> {
+impl<'a> Ending<'a> {
+    /// In this state, with the answer or the problem of `end`.
+    pub(super) fn new(state: JobState, end: &'a End, by: Option<i64>) -> Self {
+        match end {
+            End::Succeeded(result) => Self { state, result: Some(result), problem: None, by },
+            End::Failed(problem) => Self { state, result: None, problem: Some(problem), by },
+        }
+    }
+
     /// In this state, without an answer and without a problem.
     pub(super) fn bare(state: JobState) -> Self {
         Self { state, result: None, problem: None, by: None }
@@ -92,7 +100,7 @@ impl Ending<'_> {
 
 /// A transaction that writes. Dropped without [`Self::commit`], nothing has happened.
 pub(super) struct Change<'a> {
-    store: &'a SqlStore,
+    database: &'a Database,
     transaction: Transaction<'static, Any>,
     decision: Decision,
     news: Vec<News>,
@@ -100,17 +108,17 @@ pub(super) struct Change<'a> {
 
 impl<'a> Change<'a> {
     /// To begin may take seconds; whoever asked for it may have given up by then.
-    pub(super) async fn begin(store: &'a SqlStore, decision: Decision) -> Result<Self, Error> {
-        let transaction = store.writers.begin_with(store.dialect.begin()).await?;
+    pub(super) async fn begin(database: &'a Database, decision: Decision) -> Result<Self, Error> {
+        let transaction = database.begin().await?;
         decision.open()?;
-        Ok(Self { store, transaction, decision, news: Vec::new() })
+        Ok(Self { database, transaction, decision, news: Vec::new() })
     }
 
     /// Everything is on disk, and whoever waits hears of it; or whoever asked for it has given up, and nothing happens.
     pub(super) async fn commit(self) -> Result<(), Error> {
         self.decision.commit()?;
         self.transaction.commit().await?;
-        self.store.herald.announce(&self.news);
+        self.database.herald.announce(&self.news);
         Ok(())
     }
 
@@ -119,11 +127,11 @@ impl<'a> Change<'a> {
     }
 
     pub(super) fn dialect(&self) -> Dialect {
-        self.store.dialect
+        self.database.dialect
     }
 
     pub(super) fn settings(&self) -> &'a JobSettings {
-        &self.store.settings
+        &self.database.settings
     }
 
     /// To be told once everything is on disk.

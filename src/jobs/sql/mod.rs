@@ -1,13 +1,14 @@
 //! Jobs in SQLite, for one machine, or in PostgreSQL, for many. One implementation: where the two differ, [`dialect`] says
 //! how.
 //!
-//! In reading order: [`open`] connects; [`store`] is the way in of every question; a [`call`] waits for a [`change`], which
-//! is one transaction, and whoever must know hears of it from the [`herald`]; the other files are the questions, by who
-//! asks them.
+//! From below: the [`database`] has the connections; a [`change`] is one transaction in it, for which a [`call`] waits, and
+//! whoever must know hears of it from the [`herald`]; [`owner`], [`worker`], [`callbacks`] and [`sweep`] are the questions,
+//! by who asks them; [`store`] is the way in of all of them, and [`mod@open`] makes it.
 
 mod call;
 mod callbacks;
 mod change;
+mod database;
 mod dialect;
 mod events;
 mod file;
@@ -16,7 +17,6 @@ mod open;
 mod owner;
 mod row;
 mod store;
-mod submit;
 mod sweep;
 mod worker;
 

@@ -8,10 +8,11 @@ use sqlx::migrate::MigrateError;
 use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection, Error};
 use tokio_util::task::TaskTracker;
 
+use super::database::Database;
 use super::dialect::Dialect;
 use super::file;
 use super::herald::Herald;
-use super::store::{SharedStore, SqlStore};
+use super::store::SqlStore;
 use crate::jobs::{JobSettings, Store};
 use crate::metrics::Metrics;
 
@@ -41,24 +42,22 @@ pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<d
     static DRIVERS: Once = Once::new();
     DRIVERS.call_once(install_default_drivers);
     let url = settings.url.as_str();
-    let store = if url.starts_with("sqlite:") {
-        sqlite(settings, metrics).await.map_err(|error| {
+    let database = if url.starts_with("sqlite:") {
+        sqlite(settings).await.map_err(|error| {
             OpenError(format!("no jobs can be kept in '{url}': {error}; its folder must be there, and both writable"))
         })?
     } else if url.starts_with("postgres://") || url.starts_with("postgresql://") {
         // The address may hold a password.
-        postgres(settings, metrics)
-            .await
-            .map_err(|error| OpenError(format!("no jobs can be kept in PostgreSQL: {error}")))?
+        postgres(settings).await.map_err(|error| OpenError(format!("no jobs can be kept in PostgreSQL: {error}")))?
     } else {
         return Err(OpenError(
             "not an address like sqlite:PATH, sqlite::memory: or postgres://HOST/DATABASE".to_owned(),
         ));
     };
-    Ok(Arc::new(SharedStore(Arc::new(store))))
+    Ok(Arc::new(SqlStore::new(database, metrics)))
 }
 
-async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
+async fn sqlite(settings: &JobSettings) -> Result<Database, Error> {
     let memory = settings.url.starts_with("sqlite::memory:");
     let path =
         settings.url.trim_start_matches("sqlite:").trim_start_matches("//").split('?').next().unwrap_or_default();
@@ -92,7 +91,7 @@ async fn sqlite(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStor
         false => on_connect(pool.max_connections(SQLITE_READERS), reading).connect_with(options).await?,
     };
     let (dialect, settings, herald) = (Dialect::Sqlite, settings.clone(), Herald::alone());
-    Ok(SqlStore { dialect, settings, writers, readers, tasks: TaskTracker::new(), herald, metrics })
+    Ok(Database { dialect, settings, writers, readers, tasks: TaskTracker::new(), herald })
 }
 
 /// The connection that writes to a file, with its log in use. It is made anew where another process has the file open.
@@ -107,7 +106,7 @@ async fn writers_of_file(pool: AnyPoolOptions, options: AnyConnectOptions, path:
     pool.connect_with(options).await
 }
 
-async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlStore, Error> {
+async fn postgres(settings: &JobSettings) -> Result<Database, Error> {
     let options = settings.url.parse::<AnyConnectOptions>()?.disable_statement_logging();
     let pool = AnyPoolOptions::new().acquire_timeout(POSTGRES_WAIT).max_connections(POSTGRES_CONNECTIONS);
     // Without limits: the tables may take their time, and so may another server that is making them.
@@ -117,7 +116,7 @@ async fn postgres(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<SqlSt
     let pool = on_connect(pool, POSTGRES_LIMITS).connect_with(options).await?;
     let herald = Herald::among_others(&settings.url, &pool).await?;
     let (dialect, settings, readers) = (Dialect::Postgres, settings.clone(), pool.clone());
-    Ok(SqlStore { dialect, settings, writers: pool, readers, tasks: TaskTracker::new(), herald, metrics })
+    Ok(Database { dialect, settings, writers: pool, readers, tasks: TaskTracker::new(), herald })
 }
 
 /// Each new connection begins with these statements.

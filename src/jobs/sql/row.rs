@@ -5,6 +5,7 @@ use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
 
 use super::events;
 use crate::jobs::{Event, Job, JobId, JobState, Owner, Page, Timestamp};
+use crate::wire::RawJson;
 use singulate_planner::budget::Incumbent;
 
 /// What a job is read from, but its result and its place in the queue.
@@ -93,11 +94,16 @@ fn job(row: &AnyRow) -> Result<Job, Error> {
         attempts: whole(row, "attempts")?,
         queue_position: row.try_get::<Option<i64>, _>("queue_position")?.map(narrow).transpose()?,
         incumbent: incumbent(row)?,
-        result: row.try_get("result")?,
-        problem: row.try_get("problem")?,
+        result: raw_json(row, "result")?,
+        problem: raw_json(row, "problem")?,
         version: row.try_get("version")?,
         events: events(row)?,
     })
+}
+
+fn raw_json(row: &AnyRow, column: &str) -> Result<Option<RawJson>, Error> {
+    let text = row.try_get::<Option<&str>, _>(column)?;
+    text.map(str::parse::<RawJson>).transpose().map_err(|error| Error::Decode(error.into()))
 }
 
 pub(super) fn events(row: &AnyRow) -> Result<Vec<Event>, Error> {

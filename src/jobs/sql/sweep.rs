@@ -5,9 +5,7 @@ use sqlx::{AnyConnection, AssertSqlSafe, Error};
 use super::change::{Change, Ending, STANDING, Standing};
 use super::herald::News;
 use super::row;
-use crate::jobs::{Counts, JobState, MAX_ATTEMPTS, Swept, Timestamp};
-use crate::wire::Problem;
-use crate::wire::ProblemKind;
+use crate::jobs::{Counts, End, JobState, MAX_ATTEMPTS, Swept, Timestamp};
 
 /// Jobs of each kind in one transaction. Each that goes back to the queue counts the queue: with 10,000 in it some 2 ms.
 const BATCH: usize = 200;
@@ -54,17 +52,8 @@ async fn lose(change: &mut Change<'_>, job: &Standing, swept: &mut Swept, now: T
         change.requeue(job, job.attempts, now).await
     } else {
         swept.poisoned.push(job.id);
-        let problem = poison();
-        let ending = Ending { problem: Some(&problem), ..Ending::bare(JobState::Failed) };
-        change.end(job, &ending, now).await
+        change.end(job, &Ending::new(JobState::Failed, &End::poisoned(), None), now).await
     }
-}
-
-fn poison() -> String {
-    let detail =
-        format!("{MAX_ATTEMPTS} workers began this job and were not heard of again; it is not begun once more");
-    let problem = Problem::new(ProblemKind::Poison, detail);
-    serde_json::to_string(&problem).expect("a problem document is JSON")
 }
 
 pub(super) fn add(all: &mut Swept, batch: Swept) {

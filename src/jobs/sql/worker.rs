@@ -4,10 +4,10 @@ use sqlx::{AssertSqlSafe, Error, Row};
 
 use super::call::Decision;
 use super::change::{Change, Ending, STANDING, Standing};
+use super::database::Database;
 use super::events;
 use super::herald::News;
 use super::row;
-use super::store::SqlStore;
 use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
 use singulate_planner::budget::Incumbent;
 
@@ -92,12 +92,11 @@ pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now
     }
     let by = Some(claim.fence);
     let ending = match end {
-        End::Succeeded(result) if job.cancel_requested => {
-            Ending { state: JobState::Cancelled, result: Some(result), problem: None, by }
-        }
+        // A cancelled job has no problem, whatever became of its plan.
         End::Failed(_) if job.cancel_requested => Ending { by, ..Ending::bare(JobState::Cancelled) },
-        End::Succeeded(result) => Ending { state: JobState::Succeeded, result: Some(result), problem: None, by },
-        End::Failed(problem) => Ending { state: JobState::Failed, result: None, problem: Some(problem), by },
+        _ if job.cancel_requested => Ending::new(JobState::Cancelled, end, by),
+        End::Succeeded(_) => Ending::new(JobState::Succeeded, end, by),
+        End::Failed(_) => Ending::new(JobState::Failed, end, by),
     };
     change.end(&job, &ending, now).await?;
     Ok(true)
@@ -115,8 +114,8 @@ pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timest
 }
 
 /// A claim that nobody has heard of is handed back.
-pub(super) async fn give_back(store: &SqlStore, claim: Claim, now: Timestamp) -> Result<(), Error> {
-    let mut change = Change::begin(store, Decision::default()).await?;
+pub(super) async fn give_back(database: &Database, claim: Claim, now: Timestamp) -> Result<(), Error> {
+    let mut change = Change::begin(database, Decision::default()).await?;
     hand_back(&mut change, claim, now).await?;
     change.commit().await
 }

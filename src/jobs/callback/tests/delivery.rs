@@ -10,8 +10,8 @@ use tokio::task::JoinHandle;
 
 use super::receiver::{Manner, Receiver, status, until};
 use super::store::Callbacks;
+use crate::jobs::callback::client::system;
 use crate::jobs::callback::deliver::{CallbackDelivery, MAX_IN_FLIGHT, MAX_TRIES, Pace, pause};
-use crate::jobs::callback::resolve::system;
 use crate::jobs::callback::{CallbackAllow, CallbackSecret};
 use crate::jobs::{Delivery, JobId, JobSettings, Timestamp};
 

@@ -12,8 +12,8 @@ use super::delivery::{pace, secret};
 use super::receiver::{Receiver, status, until};
 use super::store::Callbacks;
 use crate::jobs::Delivery;
+use crate::jobs::callback::client::{Lookup, system};
 use crate::jobs::callback::deliver::{CallbackDelivery, MAX_TRIES};
-use crate::jobs::callback::resolve::{Lookup, system};
 
 const HERE: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
 

@@ -55,7 +55,7 @@ fn ended() -> Job {
         attempts: 1,
         queue_position: None,
         incumbent: None,
-        result: Some("{}".to_owned()),
+        result: Some("{}".parse().unwrap()),
         problem: None,
         version: None,
         events: Vec::new(),

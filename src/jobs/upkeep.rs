@@ -1,17 +1,41 @@
-//! Sees to what time brings: leases, jobs and callbacks that are over.
+//! When a store is asked without a caller: again after it failed, and now and then to see to what time brings, which is
+//! leases, jobs and callbacks that are over.
 
 use core::time::Duration;
 use std::sync::Arc;
 
-use tokio::time::{MissedTickBehavior, interval};
+use tokio::time::{MissedTickBehavior, interval, sleep};
 
-use super::log::job_ended;
+use super::end::job_ended;
 use super::store::{Store, Swept};
 use super::timestamp::Timestamp;
 use crate::metrics::{Ended, Metrics};
 use crate::workers::Draining;
 
-/// How often to look: four times a lease, so that a lost worker's job waits hardly longer than its lease; but not all the
+/// The first pause after a failure and the longest: soon enough after a hiccup, seldom enough for a store that is starting.
+const LEAST: Duration = Duration::from_millis(50);
+const GREATEST: Duration = Duration::from_secs(2);
+
+/// A pause that doubles each time.
+#[derive(Debug)]
+pub(super) struct Pause(Duration);
+
+impl Default for Pause {
+    fn default() -> Self {
+        Self(LEAST)
+    }
+}
+
+impl Pause {
+    /// Wait; longer the next time.
+    pub(super) async fn pass(&mut self) {
+        let length = self.0;
+        self.0 = (2 * length).min(GREATEST);
+        sleep(length).await;
+    }
+}
+
+/// How often to sweep: four times a lease, so that a lost worker's job waits hardly longer than its lease; but not all the
 /// time, and not so seldom that an expired job is seen waiting.
 const OFTEN: Duration = Duration::from_millis(50);
 const SELDOM: Duration = Duration::from_secs(1);
