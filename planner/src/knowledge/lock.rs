@@ -6,39 +6,39 @@
 use std::collections::VecDeque;
 
 use super::base::KnowledgeBase;
-use super::closure::Closure;
+use super::derivable::Derivable;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
 /// The greatest lock and an inclusion-minimal one within it, both in index order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Lock {
+pub struct Locks {
     /// Every object with options that can't be derived. (Those without are added by whoever knows why they have none.)
     pub blocked: Vec<ObjectIndex>,
     /// A lock that holds the target; inclusion-minimal unless the budget ended first.
     pub core: Vec<ObjectIndex>,
 }
 
-/// The lock that holds `target`, which `closure` (of the same base) must not derive. An object without options is a member
+/// The lock that holds `target`, which `derivable` (of the same base) must not derive. An object without options is a member
 /// that needs no proof of its own.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends before there is a lock at all.
 pub fn lock(
     base: &KnowledgeBase,
-    closure: &Closure,
+    derivable: &Derivable,
     target: ObjectIndex,
     budget: &Budget<'_>,
-) -> Result<Lock, Interrupted> {
-    let mut grown = Core::grow(base, closure, target, budget)?;
+) -> Result<Locks, Interrupted> {
+    let mut grown = GrowingLock::grow(base, derivable, target, budget)?;
     grown.minimise(budget);
     let movable = |object: &ObjectIndex| !base.rules_of(*object).is_empty();
-    let blocked = base.objects().filter(|object| !closure.derives(*object)).filter(movable).collect();
-    Ok(Lock { blocked, core: grown.members() })
+    let blocked = base.objects().filter(|object| !derivable.derives(*object)).filter(movable).collect();
+    Ok(Locks { blocked, core: grown.members() })
 }
 
 /// A lock under construction.
-struct Core<'a> {
+struct GrowingLock<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
     member: Vec<bool>,
@@ -50,11 +50,11 @@ struct Core<'a> {
     condition_of: Vec<Vec<(u32, ObjectIndex)>>,
 }
 
-impl<'a> Core<'a> {
+impl<'a> GrowingLock<'a> {
     /// From the target outwards: whoever is in needs, for each option that no member holds, one more underived member.
     fn grow(
         base: &'a KnowledgeBase,
-        closure: &Closure,
+        derivable: &Derivable,
         target: ObjectIndex,
         budget: &Budget<'_>,
     ) -> Result<Self, Interrupted> {
@@ -70,7 +70,7 @@ impl<'a> Core<'a> {
         core.enter(target);
         while let Some(object) = open.pop_front() {
             budget.check()?;
-            while let Some(holder) = core.best_holder(object, closure) {
+            while let Some(holder) = core.best_holder(object, derivable) {
                 core.enter(holder);
                 open.push_back(holder);
             }
@@ -97,10 +97,10 @@ impl<'a> Core<'a> {
 
     /// The underived object that holds most of the options that no member holds yet; one that can never be moved is best,
     /// for it needs no holder of its own.
-    fn best_holder(&self, object: ObjectIndex, closure: &Closure) -> Option<ObjectIndex> {
+    fn best_holder(&self, object: ObjectIndex, derivable: &Derivable) -> Option<ObjectIndex> {
         let open: Vec<usize> = self.base.rules_of(object).filter(|&rule| self.holders[rule] == 0).collect();
         let mut candidates: Vec<ObjectIndex> =
-            open.iter().flat_map(|&rule| self.base.body(rule)).copied().filter(|o| !closure.derives(*o)).collect();
+            open.iter().flat_map(|&rule| self.base.body(rule)).copied().filter(|o| !derivable.derives(*o)).collect();
         candidates.sort_unstable();
         let runs = candidates.chunk_by(|a, b| a == b);
         let rank =
@@ -154,7 +154,7 @@ impl<'a> Core<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::close;
+    use super::super::derivable;
     use super::*;
     use proptest::prelude::*;
 
@@ -167,15 +167,15 @@ mod tests {
         members.iter().all(|&member| base.options(member).all(|option| option.iter().any(|o| members.contains(o))))
     }
 
-    fn check(base: &KnowledgeBase) -> Option<Lock> {
+    fn check(base: &KnowledgeBase) -> Option<Locks> {
         let target = ObjectIndex::new(0);
-        let closure = close(base, |_| false, &Budget::unlimited()).expect("unlimited");
-        if closure.derives(target) {
+        let derivable = derivable(base, |_| false, &Budget::unlimited()).expect("unlimited");
+        if derivable.derives(target) {
             return None;
         }
-        let lock = lock(base, &closure, target, &Budget::unlimited()).expect("unlimited");
+        let lock = lock(base, &derivable, target, &Budget::unlimited()).expect("unlimited");
         assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
-        let with_stuck: Vec<_> = base.objects().filter(|object| !closure.derives(*object)).collect();
+        let with_stuck: Vec<_> = base.objects().filter(|object| !derivable.derives(*object)).collect();
         assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));
         let n = lock.core.len();
         for subset in 0..(1_u32 << n) - 1 {

@@ -5,8 +5,8 @@
 
 use nalgebra::Point2;
 
-use super::candidates::{Candidates, Wish};
-use super::effort::{Effort, Meter, Stop};
+use super::candidates::{Candidates, PlaceSpec};
+use super::effort::{Effort, EffortMeter, Stop};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
@@ -51,7 +51,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
     loop {
         let mut arranger = Arranger {
             task,
-            table: Tabletop::new(Layout::new(task.scene, task.model), Meter::new(effort, budget)),
+            table: Tabletop::new(Layout::new(task.scene, task.model), EffortMeter::new(effort, budget)),
             width,
             truncated: false,
             relocations: Vec::new(),
@@ -145,7 +145,7 @@ impl Arranger<'_, '_> {
         let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != stuck).collect();
         self.table.layout.lift(object, true);
         self.table.layout.lift(stuck, true);
-        let mut candidates = Candidates::new(&self.table.layout, self.wish(stuck, 0.0));
+        let mut candidates = Candidates::new(&self.table.layout, self.spec(stuck, 0.0));
         let found = self.table.next_place(&mut candidates, stuck, &rest, |_| false)?;
         self.table.layout.lift(stuck, false);
         self.table.layout.lift(object, false);
@@ -178,11 +178,11 @@ impl Arranger<'_, '_> {
             if places.len() >= self.width {
                 break;
             }
-            let wish = self.wish(object, preferred);
+            let spec = self.spec(object, preferred);
             let mut candidates = if spread {
-                Candidates::spread(&self.table.layout, wish)
+                Candidates::spread(&self.table.layout, spec)
             } else {
-                Candidates::new(&self.table.layout, wish)
+                Candidates::new(&self.table.layout, spec)
             };
             // Where one place leads nowhere, one next to it leads nowhere either.
             let near =
@@ -223,8 +223,8 @@ impl Arranger<'_, '_> {
         Ok(done)
     }
 
-    fn wish(&self, object: ObjectIndex, preferred: f64) -> Wish {
-        Wish {
+    fn spec(&self, object: ObjectIndex, preferred: f64) -> PlaceSpec {
+        PlaceSpec {
             object,
             gap: self.task.scene.gripper().margin() + preferred,
             edge_gap: preferred,

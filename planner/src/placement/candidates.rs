@@ -11,7 +11,7 @@ use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::borders::Border;
-use super::effort::{Meter, Stop};
+use super::effort::{EffortMeter, Stop};
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
 use crate::scene::{Disc, ObjectIndex, distance};
@@ -21,7 +21,7 @@ const PLACES_PER_EFFORT: usize = 32;
 
 /// What a place must keep, and what makes it good.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wish {
+pub(super) struct PlaceSpec {
     pub(super) object: ObjectIndex,
     /// Kept from other objects, m.
     pub(super) gap: f64,
@@ -32,7 +32,7 @@ pub(super) struct Wish {
 
 /// Places in the order of their score.
 pub(super) struct Candidates {
-    wish: Wish,
+    spec: PlaceSpec,
     radius: f64,
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
@@ -82,12 +82,12 @@ impl PartialOrd for Entry {
 
 impl Candidates {
     /// Places for an object that is lifted off `layout`.
-    pub(super) fn new(layout: &Layout<'_>, wish: Wish) -> Self {
-        let mut candidates = Self::empty(layout, wish);
+    pub(super) fn new(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
+        let mut candidates = Self::empty(layout, spec);
         candidates.add_table(layout);
         candidates.add_keep_outs(layout);
         candidates.add_obstacles(layout);
-        if wish.objective == Objective::ShortMoves {
+        if spec.objective == Objective::ShortMoves {
             candidates.add_spiral(layout);
         }
         candidates
@@ -100,15 +100,15 @@ impl Candidates {
         scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
     }
 
-    fn empty(layout: &Layout<'_>, wish: Wish) -> Self {
+    fn empty(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let scene = layout.scene();
-        let own = layout.disc(wish.object);
-        let origin = match wish.objective {
+        let own = layout.disc(spec.object);
+        let origin = match spec.objective {
             Objective::FarFromTarget => scene.object(scene.target()).disc().centre,
             Objective::ShortMoves => own.centre,
         };
         Self {
-            wish,
+            spec,
             radius: own.radius,
             origin,
             table: Border::default(),
@@ -121,8 +121,8 @@ impl Candidates {
 
     /// Places spread evenly over the table, for where no border curve's points will do: a release between obstacles may be
     /// possible only well inside a free region.
-    pub(super) fn spread(layout: &Layout<'_>, wish: Wish) -> Self {
-        let mut candidates = Self::empty(layout, wish);
+    pub(super) fn spread(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
+        let mut candidates = Self::empty(layout, spec);
         let top = layout.scene().table().top();
         let inset = Vector2::repeat(candidates.edge());
         scatter::even(top.min() + inset, top.max() - inset).for_each(|at| candidates.add_place(at));
@@ -133,7 +133,11 @@ impl Candidates {
     ///
     /// # Errors
     /// [`Stop`] when effort or budget end: many borders may be expanded before the next place comes up.
-    pub(super) fn next(&mut self, layout: &Layout<'_>, meter: &mut Meter<'_>) -> Result<Option<Point2<f64>>, Stop> {
+    pub(super) fn next(
+        &mut self,
+        layout: &Layout<'_>,
+        meter: &mut EffortMeter<'_>,
+    ) -> Result<Option<Point2<f64>>, Stop> {
         while let Some(entry) = self.heap.pop() {
             let before = self.heap.len();
             match entry.kind {
@@ -162,8 +166,8 @@ impl Candidates {
         let disc = Disc { centre: at, radius: self.radius };
         let table = layout.scene().table();
         // Curves run a whole INSIDE away from the bound: half of it absorbs their rounding.
-        let edge_gap = self.wish.edge_gap + INSIDE / 2.0;
-        let gap = self.wish.gap + INSIDE / 2.0;
+        let edge_gap = self.spec.edge_gap + INSIDE / 2.0;
+        let gap = self.spec.gap + INSIDE / 2.0;
         table.top().inner_gap(&disc) >= edge_gap
             && table.keep_out().iter().all(|area| area.outer_gap(&disc) >= edge_gap)
             && layout.near(at, self.radius + gap).next().is_none()
@@ -171,7 +175,7 @@ impl Candidates {
 
     fn score(&self, at: Point2<f64>) -> f64 {
         let apart = distance(at, self.origin);
-        match self.wish.objective {
+        match self.spec.objective {
             Objective::FarFromTarget => apart,
             Objective::ShortMoves => -apart,
         }
@@ -183,7 +187,7 @@ impl Candidates {
 
     /// How far its centre keeps from table edge and keep-outs, m.
     fn edge(&self) -> f64 {
-        self.radius + self.wish.edge_gap + INSIDE
+        self.radius + self.spec.edge_gap + INSIDE
     }
 
     fn add_table(&mut self, layout: &Layout<'_>) {
@@ -195,7 +199,7 @@ impl Candidates {
     fn add_keep_outs(&mut self, layout: &Layout<'_>) {
         let keep = self.edge();
         for (at, area) in layout.scene().table().keep_out().iter().enumerate() {
-            let score = match self.wish.objective {
+            let score = match self.spec.objective {
                 Objective::FarFromTarget => Border::round(area, keep).farthest(self.origin),
                 Objective::ShortMoves => -area.outer_gap(&Disc { centre: self.origin, radius: keep }).max(0.0),
             };
@@ -210,7 +214,7 @@ impl Candidates {
             let mut score = f64::NEG_INFINITY;
             for radius in self.radii(layout, object) {
                 self.span = self.span.max(radius);
-                score = score.max(match self.wish.objective {
+                score = score.max(match self.spec.objective {
                     Objective::FarFromTarget => apart + radius,
                     Objective::ShortMoves => -(apart - radius).abs(),
                 });
@@ -226,7 +230,7 @@ impl Candidates {
         let radius = layout.disc(obstacle).radius;
         let clear = gripper.margin() + INSIDE;
         let mut radii: SmallVec<[f64; 3]> = SmallVec::from_buf([
-            self.radius + radius + self.wish.gap + INSIDE,
+            self.radius + radius + self.spec.gap + INSIDE,
             gripper.corner_distance(self.radius) + radius + clear,
             gripper.corner_distance(radius) + self.radius + clear,
         ]);
@@ -289,8 +293,8 @@ mod tests {
     fn of_places_of_one_score_as_many_stay_as_may() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
-        let wish = Wish { object, gap: 0.0, edge_gap: 0.0, objective };
-        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), wish);
+        let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
+        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), spec);
         let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
         let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
         let many = u32::try_from(MANY).unwrap();

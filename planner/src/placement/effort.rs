@@ -50,14 +50,14 @@ impl From<Interrupted> for Stop {
 pub(super) const BEAT: usize = 64;
 
 /// Spends effort, and looks at the budget now and then.
-pub(super) struct Meter<'e> {
+pub(super) struct EffortMeter<'e> {
     effort: &'e mut Effort,
     budget: &'e Budget<'e>,
     /// Effort since the last look at the budget.
     unwatched: usize,
 }
 
-impl<'e> Meter<'e> {
+impl<'e> EffortMeter<'e> {
     pub(super) fn new(effort: &'e mut Effort, budget: &'e Budget<'e>) -> Self {
         Self { effort, budget, unwatched: 0 }
     }

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::INSIDE;
 use super::candidates::Candidates;
-use super::effort::{BEAT, Meter, Stop};
+use super::effort::{BEAT, EffortMeter, Stop};
 use super::layout::Layout;
 use crate::geometry::{Grasp, widest_grasp};
 use crate::scene::{Disc, ObjectIndex, distance};
@@ -18,11 +18,11 @@ const HALVINGS: usize = 7;
 /// A layout and what may still be tried on it.
 pub(super) struct Tabletop<'a, 'e> {
     pub(super) layout: Layout<'a>,
-    meter: Meter<'e>,
+    meter: EffortMeter<'e>,
 }
 
 impl<'a, 'e> Tabletop<'a, 'e> {
-    pub(super) fn new(layout: Layout<'a>, meter: Meter<'e>) -> Self {
+    pub(super) fn new(layout: Layout<'a>, meter: EffortMeter<'e>) -> Self {
         Self { layout, meter }
     }
 
