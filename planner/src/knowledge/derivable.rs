@@ -1,11 +1,11 @@
-//! What follows from a knowledge base: forward chaining with a counter per rule (Dowling & Gallier 1984), linear in the
-//! size of the base.
+//! Derivable objects: forward chaining over a knowledge base with a counter per rule (Dowling & Gallier 1984), linear
+//! in the size of the base.
 
 use super::base::KnowledgeBase;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
-/// What can be relocated, in an order in which it can.
+/// The objects that can be grasped, in an order in which they can.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Derivable {
     /// The derived objects, each after all of one of its options.
@@ -14,7 +14,8 @@ pub struct Derivable {
     pub derived: Vec<bool>,
 }
 
-/// Relocate all that can be relocated, except what is `held`: that stays even where it could be grasped.
+/// Chains forward: relocates every graspable object that is not `held`. A held object can be derived too, but stays
+/// where it is, so nothing follows from it.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.

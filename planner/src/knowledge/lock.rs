@@ -1,7 +1,7 @@
 //! Locks: sets of objects that hold each other.
 //!
-//! A set is a lock when each movable member has some member in every one of its options, for then the first of them to be
-//! grasped can't exist. The objects that forward chaining leaves underived are the greatest lock.
+//! A set is a lock if every option of every movable member holds a member: then no member can be the first to be
+//! grasped. The objects that forward chaining does not derive are the greatest lock.
 
 use std::collections::VecDeque;
 
@@ -13,18 +13,19 @@ use crate::scene::ObjectIndex;
 /// The greatest lock and an inclusion-minimal one within it, both in index order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Locks {
-    /// Every object with options that can't be derived. (Those without are added by whoever knows why they have none.)
+    /// The greatest lock: the underived objects that have options. (The caller adds those without options, since it
+    /// knows why they have none.)
     pub blocked: Vec<ObjectIndex>,
-    /// A lock that holds the target; inclusion-minimal unless the budget ended first.
+    /// A lock with the target; inclusion-minimal unless the budget ended first.
     pub core: Vec<ObjectIndex>,
 }
 
-/// The lock that holds `target`, which `derivable` (of the same base) must not derive. An object without options is a member
-/// that needs no proof of its own.
+/// The locks around `target`, which must not be `derivable` (from the same base). An object without options may be a
+/// member as it is.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends before there is a lock at all.
-pub fn lock(
+pub fn locks(
     base: &KnowledgeBase,
     derivable: &Derivable,
     target: ObjectIndex,
@@ -42,16 +43,17 @@ struct GrowingLock<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
     member: Vec<bool>,
-    /// In the order in which they came in.
+    /// The members in the order in which they entered.
     entered: Vec<ObjectIndex>,
-    /// Per rule of a member how many members its body holds.
+    /// Per rule of a member the number of members in its body.
     holders: Vec<u32>,
-    /// Per object the rules that need it, of members only.
+    /// Per object the rules of members that have it in their bodies.
     condition_of: Vec<Vec<(u32, ObjectIndex)>>,
 }
 
 impl<'a> GrowingLock<'a> {
-    /// From the target outwards: whoever is in needs, for each option that no member holds, one more underived member.
+    /// Grows a lock from the target outwards. For each option of a member that holds no member, an underived object of
+    /// that option enters.
     fn grow(
         base: &'a KnowledgeBase,
         derivable: &Derivable,
@@ -95,8 +97,8 @@ impl<'a> GrowingLock<'a> {
         }
     }
 
-    /// The underived object that holds most of the options that no member holds yet; one that can never be moved is best,
-    /// for it needs no holder of its own.
+    /// The underived object in most of those options of `object` that hold no member yet. An object without options is
+    /// best, since it needs no holder itself.
     fn best_holder(&self, object: ObjectIndex, derivable: &Derivable) -> Option<ObjectIndex> {
         let open: Vec<usize> = self.base.rules_of(object).filter(|&rule| self.holders[rule] == 0).collect();
         let mut candidates: Vec<ObjectIndex> =
@@ -108,7 +110,7 @@ impl<'a> GrowingLock<'a> {
         runs.max_by_key(rank).map(|run| run[0])
     }
 
-    /// Leave members out, last come first, as long as the target stays held.
+    /// Drops members, the latest first, as long as the target stays locked.
     fn minimise(&mut self, budget: &Budget<'_>) {
         for at in (0..self.entered.len()).rev() {
             if budget.check().is_err() {
@@ -121,7 +123,8 @@ impl<'a> GrowingLock<'a> {
         }
     }
 
-    /// Whoever loses the last holder of an option leaves as well. If that reaches the target, all come back.
+    /// Drops a member, and then each member with an option that no longer holds one. If the target would be dropped,
+    /// all are restored.
     fn leave_unless_target_falls(&mut self, object: ObjectIndex) {
         let mut left = vec![object];
         self.member[object.get()] = false;
@@ -173,7 +176,7 @@ mod tests {
         if derivable.derives(target) {
             return None;
         }
-        let lock = lock(base, &derivable, target, &Budget::unlimited()).expect("unlimited");
+        let lock = locks(base, &derivable, target, &Budget::unlimited()).expect("unlimited");
         assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
         let with_stuck: Vec<_> = base.objects().filter(|object| !derivable.derives(*object)).collect();
         assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));

@@ -1,8 +1,8 @@
-//! Places worth trying for one object, best first.
+//! Candidate places for one object, best first.
 //!
-//! The best place lies where two border curves of the free space meet, or where one of them has its extreme. Curves are
-//! expanded in the order of the best score that any of their points can have, so that places come out in the order of
-//! their score and only the curves that matter are ever looked at.
+//! The best place lies where two border curves of the free space meet, or where one of them has an extreme. The search
+//! is best first: a curve is expanded in the order of the best score that any of its points can have. So places come
+//! out in the order of their scores, and only the curves that matter are expanded.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -16,16 +16,16 @@ use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
 use crate::scene::{Disc, ObjectIndex, distance};
 
-/// How many places cost as much to come up with as one costs to try.
+/// Places that can be generated for the cost of trying one.
 const PLACES_PER_EFFORT: usize = 32;
 
-/// What a place must keep, and what makes it good.
+/// The requirements on a place, and the objective by which places are ranked.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaceSpec {
     pub(super) object: ObjectIndex,
-    /// Kept from other objects, m.
+    /// The gap to other objects, m.
     pub(super) gap: f64,
-    /// Kept from table edge and keep-outs, m.
+    /// The gap to the table's edge and to keep-outs, m.
     pub(super) edge_gap: f64,
     pub(super) objective: Objective,
 }
@@ -37,10 +37,11 @@ pub(super) struct Candidates {
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
     table: Border,
-    /// How far apart two obstacles' circles can still meet, m.
+    /// The largest radius of an obstacle's circles, m.
     span: f64,
-    /// The obstacles, and the keep-outs, whose meetings with all others are among the places already.
+    /// Per obstacle whether its border is expanded: the points where it meets other borders are in the heap.
     expanded: Vec<bool>,
+    /// The same per keep-out.
     expanded_areas: Vec<bool>,
     heap: BinaryHeap<Entry>,
 }
@@ -52,7 +53,8 @@ enum Kind {
     KeepOut(usize),
 }
 
-/// Higher scores first; among equals the smaller coordinates, so that the order is one and the same everywhere.
+/// An entry of the heap. Higher scores come first, among equals smaller coordinates, so that the order is the same on
+/// every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Entry {
     score: f64,
@@ -93,8 +95,8 @@ impl Candidates {
         candidates
     }
 
-    /// Places round the old one, the denser the nearer: a finger that comes by is satisfied with a step aside, and the
-    /// border of its shadow is none of the curves.
+    /// Adds places round the old one, denser near it. Often a step aside is enough to let a finger pass, and the
+    /// borders of shadows are not among the curves.
     fn add_spiral(&mut self, layout: &Layout<'_>) {
         let reach = 2.0 * layout.scene().gripper().corner_distance(self.radius);
         scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
@@ -119,8 +121,8 @@ impl Candidates {
         }
     }
 
-    /// Places spread evenly over the table, for where no border curve's points will do: a release between obstacles may be
-    /// possible only well inside a free region.
+    /// Places spread evenly over the table, for scenes where no point on a border curve will do: a release between
+    /// obstacles may be possible only well inside a free region.
     pub(super) fn spread(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let mut candidates = Self::empty(layout, spec);
         let top = layout.scene().table().top();
@@ -129,10 +131,10 @@ impl Candidates {
         candidates
     }
 
-    /// The next best place. Whether it is free is for the caller to see.
+    /// The next best place. The caller tests whether it is free.
     ///
     /// # Errors
-    /// [`Stop`] when effort or budget end: many borders may be expanded before the next place comes up.
+    /// [`Stop`] when effort or budget end: many borders may be expanded before the next place.
     pub(super) fn next(
         &mut self,
         layout: &Layout<'_>,
@@ -161,7 +163,7 @@ impl Candidates {
         Ok(None)
     }
 
-    /// True if the object keeps all gaps there.
+    /// True if the object keeps all gaps at `at`.
     pub(super) fn fits(&self, layout: &Layout<'_>, at: Point2<f64>) -> bool {
         let disc = Disc { centre: at, radius: self.radius };
         let table = layout.scene().table();
@@ -185,7 +187,7 @@ impl Candidates {
         self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
     }
 
-    /// How far its centre keeps from table edge and keep-outs, m.
+    /// The distance of the object's centre from the table's edge and from keep-outs, m.
     fn edge(&self) -> f64 {
         self.radius + self.spec.edge_gap + INSIDE
     }
@@ -223,8 +225,8 @@ impl Candidates {
         }
     }
 
-    /// Round an obstacle: as near as the gap allows, where it no longer hinders the release, where it no longer hinders a
-    /// grasp of that obstacle.
+    /// The radii of the circles round an obstacle: as near as the gap allows; where it no longer hinders the release;
+    /// where the object no longer hinders a grasp of the obstacle.
     fn radii(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> SmallVec<[f64; 3]> {
         let gripper = layout.scene().gripper();
         let radius = layout.disc(obstacle).radius;
@@ -238,14 +240,14 @@ impl Candidates {
         radii
     }
 
-    /// The border round an obstacle, and how far it reaches.
+    /// The border round an obstacle, and its largest radius.
     fn round_obstacle(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> (Border, f64) {
         let radii = self.radii(layout, obstacle);
         let reach = radii.iter().copied().fold(0.0, f64::max);
         (Border::rings(layout.disc(obstacle).centre, radii), reach)
     }
 
-    /// Add the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
+    /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
     fn expand(&mut self, layout: &Layout<'_>, border: &Border, centre: Point2<f64>, reach: f64) {
         let mut places: Vec<Point2<f64>> = Vec::new();
         let mut add = |at| places.push(at);
@@ -267,7 +269,8 @@ impl Candidates {
         }
     }
 
-    /// Round a large disc among thousands of crumbs there are millions of places; more than effort can try need no memory.
+    /// Drops the worst places past a limit. Round a large disc among thousands of crumbs there are millions of places,
+    /// more than effort can try.
     fn forget_worst(&mut self) {
         if self.heap.iter().filter(|entry| entry.kind == Kind::Place).count() <= MANY {
             return;
@@ -280,7 +283,7 @@ impl Candidates {
     }
 }
 
-/// More places than these are cut down to half as many, the best.
+/// The most places in the heap. Past that only the best half stays.
 const MANY: usize = 1 << 17;
 
 #[cfg(test)]

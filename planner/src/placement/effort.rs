@@ -19,20 +19,20 @@ impl Effort {
         self.left
     }
 
-    /// Split off at most `places`.
+    /// Splits off at most `places`.
     pub fn split(&mut self, places: u32) -> Self {
         let part = places.min(self.left);
         self.left -= part;
         Self { left: part }
     }
 
-    /// Give back what is left of a part.
+    /// Takes back the rest of a part.
     pub fn join(&mut self, part: Self) {
         self.left += part.left;
     }
 }
 
-/// Why there is no more trying.
+/// Why a search for places stopped early.
 pub(super) enum Stop {
     /// The effort is spent.
     Spent,
@@ -46,10 +46,10 @@ impl From<Interrupted> for Stop {
     }
 }
 
-/// Units of effort between two looks at the budget: some 30 µs.
+/// Units of effort between two looks at the budget, some 30 µs.
 pub(super) const BEAT: usize = 64;
 
-/// Spends effort, and looks at the budget now and then.
+/// Spends effort, and looks at the budget once in [`BEAT`] units.
 pub(super) struct EffortMeter<'e> {
     effort: &'e mut Effort,
     budget: &'e Budget<'e>,
@@ -62,7 +62,7 @@ impl<'e> EffortMeter<'e> {
         Self { effort, budget, unwatched: 0 }
     }
 
-    /// Look at the budget now.
+    /// Looks at the budget now.
     pub(super) fn look(&mut self) -> Result<(), Stop> {
         self.unwatched = 0;
         Ok(self.budget.check()?)

@@ -6,7 +6,7 @@ use super::confirm::PlanError;
 use crate::budget::{Budget, Interrupted};
 use crate::geometry::Shadow;
 use crate::knowledge::{
-    Derivable, KnowledgeBase, Locks, NoBase, completed, derivable, fixed_blockers, lock, swept_finger_options,
+    Derivable, KnowledgeBase, Locks, NoBase, completed, derivable, fixed_blockers, locks, swept_finger_options,
 };
 use crate::placement::grasp_in_place;
 use crate::scene::Scene;
@@ -35,14 +35,14 @@ pub(super) fn prove_deadlock(scene: &Scene, relevant: &KnowledgeBase, budget: &B
     Ok(greatest_lock(scene, &base, &derivable, budget)?)
 }
 
-/// Why the target, which does not follow, does not: from the complete base and its derivable.
+/// Why the target, which does not follow, does not: from the complete base and its derivable objects.
 pub(super) fn greatest_lock(
     scene: &Scene,
     base: &KnowledgeBase,
     derivable: &Derivable,
     budget: &Budget<'_>,
 ) -> Result<Deadlock, Interrupted> {
-    let Locks { mut blocked, core } = lock(base, derivable, scene.target(), budget)?;
+    let Locks { mut blocked, core } = locks(base, derivable, scene.target(), budget)?;
     blocked.extend(fixed_blockers(scene, &blocked, budget)?);
     blocked.sort_unstable();
     Ok(Deadlock { blocked, core })

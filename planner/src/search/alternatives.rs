@@ -1,7 +1,7 @@
 //! The next best sets that derive the target, in order of size, by Murty's partition (1968).
 //!
-//! The sets other than S fall into disjoint classes: "holds s₁ … sᵢ₋₁ but not sᵢ" for each i. Each class is a restricted
-//! question.
+//! The sets other than S fall into disjoint classes: "holds s₁ … sᵢ₋₁ but not sᵢ" for each i. Each class is a
+//! restricted question.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -37,7 +37,8 @@ impl<'a> Alternatives<'a> {
         Self { base, target, open, found: vec![(Restriction::default(), first)], class: None }
     }
 
-    /// The next derivation, no shorter than any before. After an interruption the next call goes on where this one stopped.
+    /// The next derivation, no shorter than any before. After an interruption the next call goes on where this one
+    /// stopped.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.

@@ -1,5 +1,5 @@
-//! Fact landmarks: for each node, the nodes that every derivation of it moves (Zhu & Givan 2003; Keyder, Richter & Helmert
-//! 2010).
+//! Fact landmarks: for each node, the nodes that every derivation of it moves (Zhu & Givan 2003; Keyder, Richter &
+//! Helmert 2010).
 
 use super::bits::Bits;
 use super::problem::{Node, Problem};
@@ -18,8 +18,8 @@ pub(super) struct FactLandmarks {
 }
 
 impl FactLandmarks {
-    /// The fact landmarks of all nodes in `order`, which is a derivation of them all; the target may come last. `None` if the
-    /// problem is too large.
+    /// The fact landmarks of all nodes in `order`, which is a derivation of them all; the target may come last. `None`
+    /// if the problem is too large.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
@@ -58,8 +58,8 @@ impl FactLandmarks {
         self.sets.ones(node as usize)
     }
 
-    /// True if the rule is dominated: moving its body takes moving the body of another rule of the same head, or the head
-    /// itself. Of two rules that dominate each other the first stays.
+    /// True if the rule is dominated: moving its body takes moving the body of another rule of the same head, or the
+    /// head itself. Of two rules that dominate each other the first stays.
     pub(super) fn is_dominated(&self, problem: &Problem, rule: u32) -> bool {
         let head = problem.head(rule);
         let implies = |rule: u32, other: u32| {

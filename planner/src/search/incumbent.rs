@@ -8,8 +8,9 @@ use super::problem::{Node, Problem};
 use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
-/// A derivation by h_add (Bonet & Geffner 2001): a node costs 1 plus the costs of all members of its cheapest body. The costs
-/// come from Dijkstra's algorithm in Knuth's generalisation (1977), the derivation from the best supporters of the target.
+/// A derivation by h_add (Bonet & Geffner 2001): a node costs 1 plus the costs of all members of its cheapest body. The
+/// costs come from Dijkstra's algorithm in Knuth's generalisation (1977), the derivation from the best supporters of
+/// the target.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -54,9 +55,9 @@ pub(super) fn h_add(problem: &Problem, ticker: &mut Ticker<'_>) -> Result<Vec<No
     Ok((0..problem.target()).filter(|&node| chosen[node as usize]).collect())
 }
 
-/// Shrinks `set` to an inclusion-minimal subset from which the target still follows, given the nodes that the chain allows
-/// already. Returns all moved nodes in order, or `None` if the target does not follow from `set`. Early members are dropped
-/// first. The chain is restored. Where the budget ends, the subset may not be minimal.
+/// Shrinks `set` to an inclusion-minimal subset from which the target still follows, given the nodes that the chain
+/// allows already. Returns all moved nodes in order, or `None` if the target does not follow from `set`. Early members
+/// are dropped first. The chain is restored. Where the budget ends, the subset may not be minimal.
 pub(super) fn derivation(chain: &mut ForwardChaining<'_>, set: &[Node], ticker: &mut Ticker<'_>) -> Option<Vec<Node>> {
     let start = chain.mark();
     set.iter().for_each(|&node| chain.allow(node));
@@ -75,8 +76,8 @@ pub(super) fn derivation(chain: &mut ForwardChaining<'_>, set: &[Node], ticker: 
     Some(moved)
 }
 
-/// Adds to `kept` the members of `set` that are needed besides the allowed nodes. Divides and conquers, as QuickXplain (Junker
-/// 2004) does, so that many members are dropped at once.
+/// Adds to `kept` the members of `set` that are needed besides the allowed nodes. Divides and conquers, as QuickXplain
+/// (Junker 2004) does, so that many members are dropped at once.
 fn keep(chain: &mut ForwardChaining<'_>, set: &[Node], kept: &mut Vec<Node>, ticker: &mut Ticker<'_>) {
     if chain.reaches_target() {
         return;

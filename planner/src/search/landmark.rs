@@ -6,10 +6,11 @@ use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
 /// Grows the allowed set of a chain that does not reach the goal to a maximal one that still does not. Returns the
-/// complement: an inclusion-minimal landmark of the goal, disjoint from the nodes allowed before. The chain is restored.
+/// complement: an inclusion-minimal landmark of the goal, disjoint from the nodes allowed before. The chain is
+/// restored.
 ///
-/// Only frontier nodes can be in the complement, since allowing a node that can't be grasped changes nothing. Nodes far from
-/// the target are allowed first, so that landmarks lie near the target, where they are small.
+/// Only frontier nodes can be in the complement, since allowing a node that can't be grasped changes nothing. Nodes far
+/// from the target are allowed first, so that landmarks lie near the target, where they are small.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -45,8 +46,8 @@ pub(super) fn extract(
     Ok(landmark)
 }
 
-/// The landmark of an object whose bodies each have exactly one member that is not `forced`: these members. `None` if some
-/// body has none or several, or if all bodies have the same one.
+/// The landmark of an object whose bodies each have exactly one member that is not `forced`: these members. `None` if
+/// some body has none or several, or if all bodies have the same one.
 pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node) -> bool) -> Option<Vec<Node>> {
     let mut landmark = Vec::new();
     for &rule in problem.rules_of(object) {

@@ -15,8 +15,8 @@ use crate::scene::ObjectIndex;
 
 /// Landmarks per node after which greedy hitting sets give way to least ones. Easy bases have far fewer.
 const LANDMARKS_A_NODE: usize = 4;
-/// The first turns of least hitting sets (choices) and of MaxSAT (conflicts), some tenths of a second each. Problems that
-/// suit hitting sets take fewer choices.
+/// The first turns of least hitting sets (choices) and of MaxSAT (conflicts), some tenths of a second each. Problems
+/// that suit hitting sets take fewer choices.
 const FIRST_TURN: (usize, u64) = (500, 50_000);
 
 /// The least set of objects from which the target follows.
@@ -130,8 +130,8 @@ impl<'p> HittingSetSearch<'p> {
         self.settle(FIRST_TURN, ticker)
     }
 
-    /// Least hitting sets and MaxSAT in turn. Each turn is twice as long as the last, since either of the two may be the one
-    /// that ends.
+    /// Least hitting sets and MaxSAT in turn. Each turn is twice as long as the last, since either of the two may be
+    /// the one that ends.
     fn settle(&mut self, first: (usize, u64), ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let (mut choices, mut conflicts) = first;
         let mut max_sat = None;
@@ -207,7 +207,8 @@ impl<'p> HittingSetSearch<'p> {
         Ok(())
     }
 
-    /// A least hitting set of the landmarks, without the forced nodes; `None` if with them it is no smaller than the best set.
+    /// A least hitting set of the landmarks, without the forced nodes; `None` if with them it is no smaller than the
+    /// best set.
     fn least_hitting_set(
         &mut self,
         allowance: &mut Allowance,
@@ -245,8 +246,8 @@ impl<'p> HittingSetSearch<'p> {
         members
     }
 
-    /// Chains with only `candidate` and the forced nodes allowed. While the target does not follow, learns a landmark that no
-    /// allowed node hits, and allows its members. True if it learnt any.
+    /// Chains with only `candidate` and the forced nodes allowed. While the target does not follow, learns a landmark
+    /// that no allowed node hits, and allows its members. True if it learnt any.
     fn learn(&mut self, candidate: &[Node], ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
         ticker.step(1 + self.problem.movable() / 64)?;
         let start = self.chain.mark();

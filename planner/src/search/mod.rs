@@ -1,9 +1,10 @@
 //! The least set of objects that must be relocated, with its proof: implicit hitting sets.
 //!
-//! This is optimal delete-relaxation planning by landmarks and hitting sets (Haslum, Slaney & Thiébaux 2012). A least hitting
-//! set H of the known landmarks bounds every plan from below. If the target follows with only H movable, H is optimal.
-//! Otherwise H grows to a maximal set from which the target still does not follow, and its complement is a new landmark. The
-//! landmarks are the proof of optimality. Where there are too many, core-guided MaxSAT takes turns with them (`clauses`).
+//! This is optimal delete-relaxation planning by landmarks and hitting sets (Haslum, Slaney & Thiébaux 2012). A least
+//! hitting set H of the known landmarks bounds every plan from below. If the target follows with only H movable, H is
+//! optimal. Otherwise H grows to a maximal set from which the target still does not follow, and its complement is a new
+//! landmark. The landmarks are the proof of optimality. Where there are too many, core-guided MaxSAT takes turns with
+//! them (`clauses`).
 
 mod alternatives;
 mod bits;

@@ -16,11 +16,11 @@ pub struct LeastSet {
     pub derivation: Derivation,
     /// No derivation is shorter.
     pub bound: usize,
-    /// The part of the bound that the landmarks prove. On a hard base it may be less than the bound, the rest of which comes
-    /// from MaxSAT.
+    /// The part of the bound that the landmarks prove. On a hard base it may be less than the bound, the rest of which
+    /// comes from MaxSAT.
     pub proven: usize,
-    /// Landmarks, each sorted: every derivation holds at least one member of each. A least hitting set of them has at least
-    /// `proven` members. (For a restricted question both hold only under the restriction.)
+    /// Landmarks, each sorted: every derivation holds at least one member of each. A least hitting set of them has at
+    /// least `proven` members. (For a restricted question both hold only under the restriction.)
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 

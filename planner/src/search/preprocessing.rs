@@ -16,11 +16,11 @@ pub(super) struct Preprocessed {
     pub(super) fact_landmarks: Vec<Node>,
 }
 
-/// Drops rules with the target, a held or an underivable object in their bodies, then dominated rules, then objects on which
-/// the target no longer depends. `Ok(None)` if the target can't be derived.
+/// Drops rules with the target, a held or an underivable object in their bodies, then dominated rules, then objects on
+/// which the target no longer depends. `Ok(None)` if the target can't be derived.
 ///
-/// Every derivation stays one, in the same order: the body of a dropped rule needs the body of a kept rule of the same head.
-/// So landmarks of the preprocessed problem are landmarks.
+/// Every derivation stays one, in the same order: the body of a dropped rule needs the body of a kept rule of the same
+/// head. So landmarks of the preprocessed problem are landmarks.
 pub(super) fn preprocess(
     base: &KnowledgeBase,
     target: ObjectIndex,
@@ -63,8 +63,8 @@ fn everything<'p>(problem: &'p Problem, ticker: &mut Ticker<'_>) -> Result<Forwa
     Ok(chain)
 }
 
-/// The objects on which the target depends through `usable` options. Breadth-first backwards from the target, numbered in
-/// reverse, so that objects near the target have high numbers.
+/// The objects on which the target depends through `usable` options. Breadth-first backwards from the target, numbered
+/// in reverse, so that objects near the target have high numbers.
 fn reached(
     base: &KnowledgeBase,
     target: ObjectIndex,

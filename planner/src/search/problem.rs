@@ -82,8 +82,8 @@ impl Problem {
         Ok(Self::from_parts(objects, heads, &members))
     }
 
-    /// The part on which the target depends through `kept` rules. Breadth-first backwards from the target, numbered in reverse,
-    /// so that nodes near the target have high numbers. Also returns per node its new number, if it is left.
+    /// The part on which the target depends through `kept` rules. Breadth-first backwards from the target, numbered in
+    /// reverse, so that nodes near the target have high numbers. Also returns per node its new number, if it is left.
     pub(super) fn restricted(
         &self,
         kept: impl Fn(u32, &mut Ticker<'_>) -> Result<bool, Interrupted>,

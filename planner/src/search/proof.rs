@@ -4,8 +4,8 @@ use super::problem::Node;
 use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
-/// Landmarks that prove the same bound, smallest first: disjoint ones where these suffice, since they are checked by counting;
-/// otherwise all that are not supersets of another. Where the budget ends, all of them.
+/// Landmarks that prove the same bound, smallest first: disjoint ones where these suffice, since they are checked by
+/// counting; otherwise all that are not supersets of another. Where the budget ends, all of them.
 pub(super) fn concise(mut landmarks: Vec<Vec<Node>>, bound: usize, ticker: &mut Ticker<'_>) -> Vec<Vec<Node>> {
     landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
     let Ok(chosen) = disjoint(&landmarks, ticker) else { return landmarks };

@@ -124,7 +124,8 @@ fn what_all_ways_share_is_a_fact_landmark() {
 fn an_option_that_implies_another_is_left_out() {
     // t←{a} or {b,c}, b←{a}, a and c free: moving b takes moving a.
     assert_eq!(preprocessed(&[vec![vec![1], vec![2, 3]], vec![vec![]], vec![vec![1]], vec![vec![]]]), (1, vec![1]));
-    // t←{a} or {b}, a←{b} or {c}, b←{a} or {c}, c free: a can follow from b and b from a, but neither must, so both stay.
+    // t←{a} or {b}, a←{b} or {c}, b←{a} or {c}, c free: a can follow from b and b from a, but neither must, so both
+    // stay.
     let both = [vec![vec![1], vec![2]], vec![vec![2], vec![3]], vec![vec![1], vec![3]], vec![vec![]]];
     assert_eq!(preprocessed(&both), (3, vec![3]));
 }

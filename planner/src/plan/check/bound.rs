@@ -1,5 +1,5 @@
-//! The bound that the stated landmarks prove: each is checked by chaining, then a least hitting set of the sound ones is
-//! computed.
+//! The bound that the stated landmarks prove: each is checked by chaining, then a least hitting set of the sound ones
+//! is computed.
 
 use std::collections::HashMap;
 
@@ -135,7 +135,8 @@ impl Sound {
         Ok(())
     }
 
-    /// True if a sound landmark is a subset of `members`. Then `members` are a sound landmark too, and prove nothing more.
+    /// True if a sound landmark is a subset of `members`. Then `members` are a sound landmark too, and prove nothing
+    /// more.
     fn covers(&self, members: &[ObjectIndex], meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
         meter.spend(1 + members.len() / 50)?;
         for first in members {

@@ -1,7 +1,7 @@
 //! Goal-directed forward chaining: can the target be freed while some objects are held?
 //!
-//! Only objects that could matter are visited: the target first, then the blockers of each visited object that is not free
-//! yet. So in a crowd of thousands a landmark is checked among its neighbours.
+//! Only objects that could matter are visited: the target first, then the blockers of each visited object that is not
+//! free yet. So in a crowd of thousands a landmark is checked among its neighbours.
 
 use crate::budget::Interrupted;
 use crate::scene::{ObjectIndex, Scene};
@@ -51,8 +51,8 @@ impl<'s> Chain<'s> {
         &mut self.rings
     }
 
-    /// Lifts objects one after the other, but never the target, a fixed object or one that is `held`. Returns how the target
-    /// becomes free, or `None` if it stays blocked. `scene` is the scene of the rings, with any target.
+    /// Lifts objects one after the other, but never the target, a fixed object or one that is `held`. Returns how the
+    /// target becomes free, or `None` if it stays blocked. `scene` is the scene of the rings, with any target.
     pub(super) fn frees_target(
         &mut self,
         scene: &Scene,

@@ -105,8 +105,8 @@ impl Family {
         1 + (self.size() + self.width) / 200
     }
 
-    /// Drops supersets, takes single members, drops dominated elements and folds, until nothing changes. The size of a least
-    /// hitting set is `forced` plus that of the rest.
+    /// Drops supersets, takes single members, drops dominated elements and folds, until nothing changes. The size of a
+    /// least hitting set is `forced` plus that of the rest.
     pub(super) fn reduce(mut self, meter: &mut Meter<'_>) -> Result<Reduced, Interrupted> {
         let mut forced = 0;
         loop {
@@ -204,7 +204,8 @@ impl Family {
         Self { sets: renumbered.collect(), width }
     }
 
-    /// The sets left once all of `taken` are taken and all of `refused` are refused. `None` if a set has no member left.
+    /// The sets left once all of `taken` are taken and all of `refused` are refused. `None` if a set has no member
+    /// left.
     pub(super) fn after(&self, taken: &[usize], refused: &[usize]) -> Option<Self> {
         let (is_taken, is_refused) = (self.mask(taken), self.mask(refused));
         let open = self.sets.iter().filter(|set| !set.members.iter().any(|member| is_taken[*member]));
@@ -222,9 +223,9 @@ impl Family {
         mask
     }
 
-    /// Folds elements of degree two (Chen, Kanj & Jia 2001). Where an element hits two pairs and nothing else, some least
-    /// hitting set holds either it alone or both of its partners. Dropping the pairs and merging the partners lowers the size
-    /// by one. Returns the number of folds.
+    /// Folds elements of degree two (Chen, Kanj & Jia 2001). Where an element hits two pairs and nothing else, some
+    /// least hitting set holds either it alone or both of its partners. Dropping the pairs and merging the partners
+    /// lowers the size by one. Returns the number of folds.
     fn fold(&mut self, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
         meter.spend(self.units())?;
         let columns = self.columns();

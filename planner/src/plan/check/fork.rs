@@ -1,5 +1,5 @@
-//! Open questions of the branch and bound: those that wait for the answers of their components, or of both branches of a
-//! choice.
+//! Open questions of the branch and bound: those that wait for the answers of their components, or of both branches of
+//! a choice.
 
 use super::family::Family;
 

@@ -18,7 +18,8 @@ pub(super) struct Hits {
 
 /// Subgradient rounds for a component that inherits no multipliers.
 const FIRST_ROUNDS: usize = 100;
-/// The most members of all open questions of a search, some 40 MB. Past that the search takes longer and finds the same.
+/// The most members of all open questions of a search, some 40 MB. Past that the search takes longer and finds the
+/// same.
 pub(super) const MOST_KEPT: usize = 4_000_000;
 
 /// The least number of elements, below `width`, that hit every one of the non-empty `sets` (each in increasing order).
@@ -170,8 +171,8 @@ mod tests {
 
     #[test]
     fn a_component_of_more_than_twenty_thousand_members_is_searched_too() {
-        // All triples of 36 sets, each an element that hits these three: 12 elements hit all. Besides Petersen's graph, of
-        // which multipliers see 5 of 6 vertices; one more set keeps the two together.
+        // All triples of 36 sets, each an element that hits these three: 12 elements hit all. Besides Petersen's graph,
+        // of which multipliers see 5 of 6 vertices; one more set keeps the two together.
         let (mut sets, ten) = petersen(1);
         let mut width = ten;
         let mut tripled = vec![Vec::new(); 36];

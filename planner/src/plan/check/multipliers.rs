@@ -3,12 +3,14 @@
 use super::family::{Family, Set};
 use super::meter::Meter;
 
-/// Subtracted before a bound is rounded up: rounding errors add up to far less, and must not lift a whole number to the next.
+/// Subtracted before a bound is rounded up: rounding errors add up to far less, and must not lift a whole number to the
+/// next.
 const ROUNDING: f64 = 1e-6;
 
-/// For multipliers s_S ≥ 0, every hitting set has at least Σ s_S − Σ_e max(0, load_e − 1) elements, where the load of an
-/// element is load_e = Σ_{S∋e} s_S. Proof: each set is hit, so the loads of a hitting set H add up to at least Σ s_S; hence
-/// |H| ≥ Σ s_S − Σ_{e∈H} (load_e − 1), and dropping the negative terms and adding positive ones only lowers the bound.
+/// For multipliers s_S ≥ 0, every hitting set has at least Σ s_S − Σ_e max(0, load_e − 1) elements, where the load of
+/// an element is load_e = Σ_{S∋e} s_S. Proof: each set is hit, so the loads of a hitting set H add up to at least Σ
+/// s_S; hence |H| ≥ Σ s_S − Σ_{e∈H} (load_e − 1), and dropping the negative terms and adding positive ones only lowers
+/// the bound.
 pub(super) struct LagrangianBound {
     total: f64,
     loads: Vec<f64>,
@@ -58,8 +60,8 @@ pub(super) fn start(family: &mut Family) {
     }
 }
 
-/// Improves the multipliers by subgradient steps. Ends after so many `rounds`, or once the bound reaches `limit`. The best
-/// multipliers stay.
+/// Improves the multipliers by subgradient steps. Ends after so many `rounds`, or once the bound reaches `limit`. The
+/// best multipliers stay.
 ///
 /// # Errors
 /// When the budget ends, the bound by the best multipliers so far.

@@ -19,12 +19,12 @@ pub(super) enum Leaning {
     Free,
 }
 
-/// Added to the least width of a free interval, or subtracted, by leaning, rad. Two ways to compute an interval's end differ
-/// by less.
+/// Added to the least width of a free interval, or subtracted, by leaning, rad. Two ways to compute an interval's end
+/// differ by less.
 const WIDTH_LEANING: f64 = 1e-10;
-/// Added to an obstacle's radius, or subtracted, by leaning, as a share of the lengths involved. Where a circle is only just
-/// touched, the last digit decides between no shadow and one of 1e-8 rad; this is far above the last digit and far below
-/// `WIDTH_LEANING`.
+/// Added to an obstacle's radius, or subtracted, by leaning, as a share of the lengths involved. Where a circle is only
+/// just touched, the last digit decides between no shadow and one of 1e-8 rad; this is far above the last digit and far
+/// below `WIDTH_LEANING`.
 const LENGTH_LEANING: f64 = 1e-12;
 
 impl Leaning {
@@ -124,8 +124,9 @@ impl<'s> Rings<'s> {
         Ok(Ring { shades })
     }
 
-    /// The middle of the widest free interval of yaws (rad, in one period from 0), counting only obstacles for which `stands`
-    /// is true. `None` if no interval is wide enough. Where nothing blocks, every yaw is free, whatever the tolerance.
+    /// The middle of the widest free interval of yaws (rad, in one period from 0), counting only obstacles for which
+    /// `stands` is true. `None` if no interval is wide enough. Where nothing blocks, every yaw is free, whatever the
+    /// tolerance.
     pub(super) fn free_yaw(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<f64> {
         let gripper = self.scene.gripper();
         let mut shades = ring.shades.iter().filter(|shade| stands(shade.by));

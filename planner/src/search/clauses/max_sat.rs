@@ -1,4 +1,5 @@
-//! Core-guided MaxSAT (OLL, Andres et al. 2012): assume every soft literal; relax each unsatisfiable core with a totalizer.
+//! Core-guided MaxSAT (OLL, Andres et al. 2012): assume every soft literal; relax each unsatisfiable core with a
+//! totalizer.
 
 use batsat::Lit;
 
@@ -134,8 +135,8 @@ impl<'p, 'b> MaxSat<'p, 'b> {
         core
     }
 
-    /// Replaces the soft literals of a core by one on its totalizer: no more of them fail than must. Raises the bound by
-    /// the number that must fail.
+    /// Replaces the soft literals of a core by one on its totalizer: no more of them fail than must. Raises the bound
+    /// by the number that must fail.
     fn relax(&mut self, core: &[Lit], best: &mut usize, adopt: Adopt<'_>) -> Result<(), Interrupted> {
         let (failing, kept) = core::mem::take(&mut self.soft)
             .into_iter()

@@ -98,8 +98,8 @@ fn what_is_required_is_not_made_graspable_at_a_cost() {
     assert_eq!(by_clauses(&options, &[2], 1000, &Budget::unlimited()), Some((2, 2)));
 }
 
-/// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up instead.
-/// The lowest layer is free.
+/// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up
+/// instead. The lowest layer is free.
 fn stack() -> Vec<Vec<Vec<usize>>> {
     const LAYERS: usize = 6;
     const WIDTH: usize = 16;

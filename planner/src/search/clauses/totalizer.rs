@@ -1,5 +1,5 @@
-//! A totalizer (Bailleux & Boufkhad 2003): a circuit that counts how many of its input literals hold. It is incremental: it
-//! grows as larger counts are asked for.
+//! A totalizer (Bailleux & Boufkhad 2003): a circuit that counts how many of its input literals hold. It is
+//! incremental: it grows as larger counts are asked for.
 
 use batsat::Lit;
 

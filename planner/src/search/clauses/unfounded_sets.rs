@@ -9,8 +9,8 @@ use batsat::{Lit, Theory, TheoryArg, lbool};
 
 use crate::search::problem::{Node, Problem};
 
-/// A theory of the solver. It chains forward over all that is not assigned false. A node that is moved but not derived lies
-/// in an unfounded set, and the shortest loop nogood of these sets is a conflict.
+/// A theory of the solver. It chains forward over all that is not assigned false. A node that is moved but not derived
+/// lies in an unfounded set, and the shortest loop nogood of these sets is a conflict.
 pub(super) struct UnfoundedSets<'p> {
     problem: &'p Problem,
     /// Per node the literal "it is moved"; for the target "it is grasped".
@@ -96,8 +96,8 @@ impl<'p> UnfoundedSets<'p> {
         }
     }
 
-    /// The loop nogood of an unfounded set that holds `node`: if `node` is moved, some external body of the set holds. The
-    /// current assignment violates this clause.
+    /// The loop nogood of an unfounded set that holds `node`: if `node` is moved, some external body of the set holds.
+    /// The current assignment violates this clause.
     fn loop_nogood(&mut self, node: Node, solver: &TheoryArg<'_>) -> Vec<Lit> {
         self.unfounded.push(node);
         self.is_unfounded[node as usize] = true;

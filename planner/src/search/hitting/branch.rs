@@ -72,8 +72,8 @@ pub(super) fn look(question: Question, choices: &mut usize, ticker: &mut Ticker<
     }
 }
 
-/// Reduced-cost fixing: leaves out or takes every element for which the opposite needs `limit` elements or more. True if
-/// it fixed any.
+/// Reduced-cost fixing: leaves out or takes every element for which the opposite needs `limit` elements or more. True
+/// if it fixed any.
 fn fix(instance: &mut Instance, lagrangian: &LagrangianBound, limit: usize, decided: &mut Decided) -> bool {
     let mut fixed = false;
     for element in 0..instance.elements() {

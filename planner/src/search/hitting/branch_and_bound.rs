@@ -1,7 +1,7 @@
 //! Depth-first branch and bound, with the open questions in a list rather than on the stack.
 //!
-//! Instances take memory, and a search may be as deep as there are elements. Past the memory limit the oldest instances are
-//! forgotten: they are large and their turn seldom comes. When it does, they are computed again from the root.
+//! Instances take memory, and a search may be as deep as there are elements. Past the memory limit the oldest instances
+//! are forgotten: they are large and their turn seldom comes. When it does, they are computed again from the root.
 
 use super::branch::{Question, Sight, look};
 use super::fork::{Fork, Next, Parts};

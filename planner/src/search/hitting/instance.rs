@@ -30,7 +30,8 @@ pub(super) struct Decided {
     folds: Vec<Fold>,
 }
 
-/// Three folded elements: a least solution holds either the `centre` alone or both others. `kept` stands for both others.
+/// Three folded elements: a least solution holds either the `centre` alone or both others. `kept` stands for both
+/// others.
 #[derive(Debug)]
 struct Fold {
     centre: Node,
@@ -160,8 +161,8 @@ impl Instance {
         self.met.clear_row(element);
     }
 
-    /// Folds an element of degree two. `centre` is in two sets, each with one other element, so a least solution holds it
-    /// alone or both others. The others become one element, which is in the solution if both are.
+    /// Folds an element of degree two. `centre` is in two sets, each with one other element, so a least solution holds
+    /// it alone or both others. The others become one element, which is in the solution if both are.
     pub(super) fn fold(&mut self, centre: usize, kept: usize, other: usize, decided: &mut Decided) {
         let label = |element: usize| self.labels[element];
         decided.folds.push(Fold { centre: label(centre), kept: label(kept), other: label(other) });

@@ -1,8 +1,8 @@
 //! A least hitting set of all landmarks, by branch and bound over rows of bits.
 //!
-//! Each question is first reduced (`reduce`) and split into parts that share no element. The Lagrangian bound of each part
-//! prunes it, and fixes elements by reduced cost (`multipliers`). Then one element is taken or left out (`branch`, `fork`).
-//! Open questions are kept in a list, so that no depth is too much (`branch_and_bound`).
+//! Each question is first reduced (`reduce`) and split into parts that share no element. The Lagrangian bound of each
+//! part prunes it, and fixes elements by reduced cost (`multipliers`). Then one element is taken or left out (`branch`,
+//! `fork`). Open questions are kept in a list, so that no depth is too much (`branch_and_bound`).
 
 mod branch;
 mod branch_and_bound;

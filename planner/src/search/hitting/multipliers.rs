@@ -1,14 +1,16 @@
-//! The Lagrangian bound on hitting sets, its multipliers raised by subgradient steps (Held & Karp 1971; Beasley 1990 for set
-//! covering).
+//! The Lagrangian bound on hitting sets, its multipliers raised by subgradient steps (Held & Karp 1971; Beasley 1990
+//! for set covering).
 //!
-//! The covering programme is min Σ x_e with Σ_{e∈S} x_e ≥ 1 for each set S and 0 ≤ x ≤ 1. Give each set a multiplier s_S ≥ 0,
-//! and let the load of an element be Σ_{S∋e} s_S. Then every solution has at least Σ s_S − Σ_e max(0, load_e − 1) elements. With
-//! the best multipliers this is the bound of linear programming. The checker computes the same bound with its own code.
+//! The covering programme is min Σ x_e with Σ_{e∈S} x_e ≥ 1 for each set S and 0 ≤ x ≤ 1. Give each set a multiplier
+//! s_S ≥ 0, and let the load of an element be Σ_{S∋e} s_S. Then every solution has at least Σ s_S − Σ_e max(0, load_e −
+//! 1) elements. With the best multipliers this is the bound of linear programming. The checker computes the same bound
+//! with its own code.
 
 use super::instance::Instance;
 use crate::search::ticker::Ticker;
 
-/// Subtracted before a bound is rounded up: rounding errors add up to far less, and must not lift a whole number to the next.
+/// Subtracted before a bound is rounded up: rounding errors add up to far less, and must not lift a whole number to the
+/// next.
 const ROUNDING: f64 = 1e-6;
 
 /// The bound by the best multipliers found.

@@ -7,8 +7,8 @@ use crate::budget::Interrupted;
 use crate::search::ticker::Ticker;
 
 /// Applies four rules until none applies: the only member of a set is taken (unit rule); a superset of another set is
-/// dropped; an element is left out if another one hits all its sets (domination, Weihe 1998); an element in two pairs is
-/// folded with its partners (degree-two folding, Chen, Kanj & Jia 2001). `false` if some set has no member left.
+/// dropped; an element is left out if another one hits all its sets (domination, Weihe 1998); an element in two pairs
+/// is folded with its partners (degree-two folding, Chen, Kanj & Jia 2001). `false` if some set has no member left.
 pub(super) fn reduce(
     instance: &mut Instance,
     decided: &mut Decided,
