@@ -14,7 +14,7 @@ use crate::budget::{Budget, Interrupted};
 use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene, distance};
 
-/// What to arrange.
+/// The task: a set of objects to relocate, with its limits.
 #[derive(Debug, Clone, Copy)]
 pub struct Task<'a> {
     /// The scene at the start.
@@ -43,7 +43,7 @@ pub struct Arrangement {
 /// kind.
 const MAX_WIDTH: usize = 16;
 
-/// An arrangement of the task, `None` if none was found among the candidates or within the effort.
+/// An arrangement of the task. `None` if none was found among the candidates within the effort.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -101,8 +101,8 @@ impl Arranger<'_, '_> {
         Ok(None)
     }
 
-    /// The first of the remaining objects that can be grasped, at most one more than the width: that one tells that the
-    /// width left something out.
+    /// The first of the remaining objects that can be grasped, at most one more than the width. The extra one shows that
+    /// the width left something out.
     fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
         let mut graspable = Vec::new();
         for &object in remaining {

@@ -11,7 +11,7 @@ pub(super) struct Circle {
     pub(super) radius: f64,
 }
 
-/// A stretch of a line x = `at` or y = `at`.
+/// A segment of a line x = `at` or y = `at`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     pub(super) direction: Direction,

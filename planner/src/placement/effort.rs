@@ -1,15 +1,16 @@
-//! How much may be tried: counted, not timed, so that the same question always ends at the same point.
+//! Effort: a limit on the places tried. It is counted, not timed, so that the same question always ends at the same
+//! point.
 
 use crate::budget::{Budget, Interrupted};
 
-/// How much more may be tried, in places: about half a microsecond each.
+/// The effort left, in tried places of about half a microsecond each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     left: u32,
 }
 
 impl Effort {
-    /// So many places.
+    /// An effort of `places`.
     pub fn new(places: u32) -> Self {
         Self { left: places }
     }

@@ -13,7 +13,7 @@ pub(super) fn base(options: &[Vec<Vec<usize>>]) -> KnowledgeBase {
     options.iter().map(|list| list.iter().map(set).collect()).collect()
 }
 
-/// Does the target follow when only `movable` may be moved? Chains round by round, straight from the definition.
+/// True if the target follows when only `movable` may be moved. Chains in rounds, straight from the definition.
 pub(super) fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
     let mut moved = 0_u32;
     loop {

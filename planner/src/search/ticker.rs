@@ -78,7 +78,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
-        // 200 objects are free, and each is asked for by `width` others, together with the last one, which never comes.
+        // 200 objects are free, and each is in the bodies of `width` others, together with the last one, which is never
+        // derived.
         let extracted = |width: usize| {
             let last = 201 + width;
             let mut options = vec![vec![vec![last]]];

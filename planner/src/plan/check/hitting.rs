@@ -5,7 +5,7 @@ use crate::budget::Interrupted;
 use super::branch::branch;
 use super::family::{Family, Set};
 use super::meter::Meter;
-use super::multipliers::{LagrangianBound, improve, start};
+use super::multipliers::{LagrangianBound, improve, initialise};
 
 /// The size of a least hitting set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(super) const MOST_KEPT: usize = 4_000_000;
 /// bound. A search keeps no more than about `most_kept` members.
 pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, most_kept: usize, meter: &mut Meter<'_>) -> Hits {
     let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
-    start(&mut family);
+    initialise(&mut family);
     let bound = family.packing().max(reached(improve(&mut family, usize::MAX, 0, meter)).at_least());
     let Ok(reduced) = family.reduce(meter) else { return Hits { at_least: bound, exact: false } };
     let mut hits = Hits { at_least: reduced.forced, exact: true };
@@ -35,7 +35,7 @@ pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, most_kept: usize, 
     // Small components first: where time runs out, as many as possible count in full.
     components.sort_by_key(Family::size);
     for mut component in components {
-        start(&mut component);
+        initialise(&mut component);
         let mut floor = component.packing();
         match search(component, &mut floor, most_kept, meter) {
             Ok(least) => hits.at_least += least,
@@ -118,7 +118,7 @@ mod tests {
             let exact = enumerate(&sets, 12);
             prop_assert_eq!(solve(&sets, 12), Hits { at_least: exact, exact: true });
             let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
-            start(&mut family);
+            initialise(&mut family);
             prop_assert!(family.packing() <= exact && reached(improve(&mut family, exact + 1, 40, &mut Meter::new(&Budget::unlimited()))).at_least() <= exact);
         }
 
@@ -154,7 +154,7 @@ mod tests {
         // All pairs of five: no two disjoint pairs more than 2, but each element hits only 4 of 10.
         let pairs = (0..5).flat_map(|a| (a + 1..5).map(move |b| Set::new(vec![a, b])));
         let mut family = Family { sets: pairs.collect(), width: 5 };
-        start(&mut family);
+        initialise(&mut family);
         assert_eq!(
             (family.packing(), reached(improve(&mut family, 4, 0, &mut Meter::new(&Budget::unlimited()))).at_least()),
             (2, 3)

@@ -50,7 +50,7 @@ fn whole(total: f64) -> usize {
 }
 
 /// Sets the first multipliers: 1 over the number of sets that the set's most frequent member hits.
-pub(super) fn start(family: &mut Family) {
+pub(super) fn initialise(family: &mut Family) {
     let columns = family.columns();
     for set in &mut family.sets {
         let most = set.members().iter().map(|member| columns[*member].len()).max().unwrap_or(1);

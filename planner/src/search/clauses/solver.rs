@@ -12,7 +12,6 @@ use crate::search::ticker::Ticker;
 /// Learnt clauses that are always kept. On problems this small a deleted clause is soon learnt again.
 const KEPT: i32 = 5000;
 /// Steps of a [`Ticker`] for one round of propagation.
-
 const STEPS: usize = 4;
 /// Literals of all clauses that add one step to each round.
 const LITERALS_A_STEP: usize = 1000;

@@ -6,7 +6,7 @@
 use super::branch::{Question, Sight, look};
 use super::fork::{Fork, Next, Parts};
 use super::instance::{Decided, Instance};
-use super::multipliers::{raise, start};
+use super::multipliers::{initialise, raise};
 use super::reduce::reduce;
 use super::{Cut, Solution, Stop};
 use crate::budget::Interrupted;
@@ -77,7 +77,7 @@ impl Root {
         let mut parts = instance.parts();
         let mut cut = false;
         let bound = |part: &mut Instance| {
-            start(part);
+            initialise(part);
             let lagrangian = raise(part, limit, FIRST_ROUNDS, ticker);
             cut |= lagrangian.is_err();
             lagrangian.unwrap_or_else(|reached| reached).bound()

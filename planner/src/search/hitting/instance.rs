@@ -13,7 +13,7 @@ pub(super) struct Instance {
     /// Per set its elements.
     members: Bits,
     /// Per element the open sets that it hits.
-    met: Bits,
+    sets_of: Bits,
     /// One row: the sets not hit yet.
     open: Bits,
     /// Per set its multiplier, see [`super::multipliers`].
@@ -75,11 +75,11 @@ impl Instance {
         let mut number = vec![0; labels.last().map_or(0, |&last| last as usize + 1)];
         labels.iter().enumerate().for_each(|(at, &label)| number[label as usize] = at);
         let mut members = Bits::new(sets.len(), labels.len());
-        let mut met = Bits::new(labels.len(), sets.len());
+        let mut sets_of = Bits::new(labels.len(), sets.len());
         for (set, nodes) in sets.iter().enumerate() {
             for &node in nodes {
                 members.set(set, number[node as usize]);
-                met.set(number[node as usize], set);
+                sets_of.set(number[node as usize], set);
             }
         }
         Self {
@@ -89,7 +89,7 @@ impl Instance {
             multipliers: vec![0.0; sets.len()],
             labels,
             members,
-            met,
+            sets_of,
         }
     }
 
@@ -108,7 +108,7 @@ impl Instance {
 
     /// Its memory, in words.
     pub(super) fn words(&self) -> usize {
-        self.members.words() + self.met.words() + 2 * self.sets() + 2 * self.elements()
+        self.members.words() + self.sets_of.words() + 2 * self.sets() + 2 * self.elements()
     }
 
     /// Steps of a ticker for one pass over all rows: a copy, a split, a choice.
@@ -120,8 +120,8 @@ impl Instance {
         &self.members
     }
 
-    pub(super) fn met(&self) -> &Bits {
-        &self.met
+    pub(super) fn sets_of(&self) -> &Bits {
+        &self.sets_of
     }
 
     pub(super) fn is_open(&self, set: usize) -> bool {
@@ -131,22 +131,22 @@ impl Instance {
     /// Puts the element into the solution.
     pub(super) fn take(&mut self, element: usize, decided: &mut Decided) {
         decided.taken.push(self.labels[element]);
-        self.meet_all(element);
+        self.close_all(element);
     }
 
-    fn meet_all(&mut self, element: usize) {
+    fn close_all(&mut self, element: usize) {
         let mut at = 0;
-        while let Some(set) = self.met.next(element, at) {
+        while let Some(set) = self.sets_of.next(element, at) {
             at = set + 1;
-            self.meet(set);
+            self.close(set);
         }
     }
 
     /// Closes a set that is hit.
-    pub(super) fn meet(&mut self, set: usize) {
+    pub(super) fn close(&mut self, set: usize) {
         self.open.clear(0, set);
         for element in self.members.ones(set) {
-            self.met.clear(element, set);
+            self.sets_of.clear(element, set);
             self.shrunk_elements.set(0, element);
         }
         self.members.clear_row(set);
@@ -154,11 +154,11 @@ impl Instance {
 
     /// Leaves the element out of the solution.
     pub(super) fn exclude(&mut self, element: usize) {
-        for set in self.met.ones(element) {
+        for set in self.sets_of.ones(element) {
             self.members.clear(set, element);
             self.shrunk_sets.set(0, set);
         }
-        self.met.clear_row(element);
+        self.sets_of.clear_row(element);
     }
 
     /// Folds an element of degree two. `centre` is in two sets, each with one other element, so a least solution holds
@@ -166,17 +166,17 @@ impl Instance {
     pub(super) fn fold(&mut self, centre: usize, kept: usize, other: usize, decided: &mut Decided) {
         let label = |element: usize| self.labels[element];
         decided.folds.push(Fold { centre: label(centre), kept: label(kept), other: label(other) });
-        self.meet_all(centre);
+        self.close_all(centre);
         let mut at = 0;
-        while let Some(set) = self.met.next(other, at) {
+        while let Some(set) = self.sets_of.next(other, at) {
             at = set + 1;
             self.members.clear(set, other);
             self.members.set(set, kept);
-            self.met.set(kept, set);
+            self.sets_of.set(kept, set);
         }
-        self.met.clear_row(other);
+        self.sets_of.clear_row(other);
         // Sets may have become supersets, and elements may have become dominated.
-        for set in self.met.ones(kept) {
+        for set in self.sets_of.ones(kept) {
             self.shrunk_sets.set(0, set);
             self.members.ones(set).for_each(|element| self.shrunk_elements.set(0, element));
         }
@@ -199,7 +199,7 @@ impl Instance {
                     seen.set(0, element);
                     elements.push(element);
                     let known = sets.len();
-                    sets.extend(self.met.ones(element).filter(|&other| left.has(0, other)));
+                    sets.extend(self.sets_of.ones(element).filter(|&other| left.has(0, other)));
                     sets[known..].iter().for_each(|&other| left.clear(0, other));
                 }
             }
@@ -214,17 +214,17 @@ impl Instance {
         let mut number = vec![0; self.elements()];
         elements.iter().enumerate().for_each(|(at, &element)| number[element] = at);
         let mut members = Bits::new(sets.len(), elements.len());
-        let mut met = Bits::new(elements.len(), sets.len());
+        let mut sets_of = Bits::new(elements.len(), sets.len());
         for (at, &set) in sets.iter().enumerate() {
             for element in self.members.ones(set) {
                 members.set(at, number[element]);
-                met.set(number[element], at);
+                sets_of.set(number[element], at);
             }
         }
         Self {
             labels: elements.iter().map(|&element| self.labels[element]).collect(),
             members,
-            met,
+            sets_of,
             open: Bits::full(1, sets.len()),
             multipliers: sets.iter().map(|&set| self.multipliers[set]).collect(),
             shrunk_sets: Bits::new(1, sets.len()),

@@ -2,9 +2,9 @@
 //! for set covering).
 //!
 //! The covering programme is min Σ x_e with Σ_{e∈S} x_e ≥ 1 for each set S and 0 ≤ x ≤ 1. Give each set a multiplier
-//! s_S ≥ 0, and let the load of an element be Σ_{S∋e} s_S. Then every solution has at least Σ s_S − Σ_e max(0, load_e −
-//! 1) elements. With the best multipliers this is the bound of linear programming. The checker computes the same bound
-//! with its own code.
+//! s_S ≥ 0, and let the load of an element be Σ_{S∋e} s_S. Then every solution has at least
+//! Σ s_S − Σ_e max(0, load_e − 1) elements. With the best multipliers this is the bound of linear programming. The checker
+//! computes the same bound with its own code.
 
 use super::instance::Instance;
 use crate::search::ticker::Ticker;
@@ -99,9 +99,9 @@ pub(super) fn raise(
 }
 
 /// Sets the first multipliers: 1 over the number of sets that the set's most frequent element hits.
-pub(super) fn start(instance: &mut Instance) {
+pub(super) fn initialise(instance: &mut Instance) {
     for set in 0..instance.sets() {
-        let most = instance.members().ones(set).map(|element| instance.met().count(element)).max().unwrap_or(1);
+        let most = instance.members().ones(set).map(|element| instance.sets_of().count(element)).max().unwrap_or(1);
         #[expect(clippy::cast_precision_loss, reason = "counts sets")]
         let multiplier = 1.0 / most as f64;
         instance.multipliers[set] = multiplier;

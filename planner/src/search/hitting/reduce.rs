@@ -39,11 +39,11 @@ const WORDS_A_STEP: usize = 512;
 fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> Option<usize> {
     let mut elements = instance.members().ones(set);
     let first = elements.next()?;
-    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.met().row(first));
+    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.sets_of().row(first));
     let mut rows = 1;
     for element in elements {
         rows += 1;
-        common.iter_mut().zip(instance.met().row(element)).for_each(|(word, other)| *word &= other);
+        common.iter_mut().zip(instance.sets_of().row(element)).for_each(|(word, other)| *word &= other);
     }
     let words = rows * common.len();
     if rows == 1 {
@@ -52,13 +52,13 @@ fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> Opt
     }
     // An element that hits this set hits its supersets too.
     common[set / 64] &= !(1 << (set % 64));
-    for_each_one(&common, |larger| instance.meet(larger));
+    for_each_one(&common, |larger| instance.close(larger));
     Some(words)
 }
 
 /// Applies the rules for one element. Returns the number of words read.
 fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided) -> usize {
-    let mut sets = instance.met().ones(element);
+    let mut sets = instance.sets_of().ones(element);
     let Some(first) = sets.next() else { return 0 };
     let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.members().row(first));
     let mut count = 1;
