@@ -1,5 +1,5 @@
-//! A spatial index of discs: an R-tree over their bounding boxes, so that one large disc among many small ones makes no
-//! query slower but those near it.
+//! A spatial index of discs: an R-tree over their bounding boxes. One large disc among many small ones slows down only
+//! the queries near it.
 
 use nalgebra::Point2;
 use rstar::primitives::{GeomWithData, Rectangle};

@@ -11,32 +11,32 @@ use nalgebra::Point2;
 use super::fault::{Findings, Flaw, Likely, Place, Yardstick};
 use super::{Disc, Gripper, Object, Rectangle};
 
-/// A length of more than so many largest radii, and ...
+/// The threshold of a length in largest radii, if it is also at least [`LONG`].
 const LONG_TO_RADIUS: f64 = 3.0;
-/// ... as long as this, m: no gripper has fingers or errors of half a metre for things so much smaller.
+/// See [`LONG_TO_RADIUS`], m: no gripper has fingers or errors of half a metre for things so much smaller.
 const LONG: f64 = 0.5;
-/// A margin of more than so many largest radii, whatever its length. Margins cover errors of perception and robot, some
-/// millimetres; with errors beyond the objects' size no grasp succeeds.
+/// The threshold of a margin in largest radii. Margins cover errors of perception and robot, some millimetres; with
+/// errors beyond the objects' size no grasp succeeds.
 const MARGIN_TO_RADIUS: f64 = 10.0;
-/// A margin of more than this share of the table's shorter side.
+/// The threshold of a margin as a share of the table's shorter side.
 const MARGIN_TO_TABLE: f64 = 0.5;
-/// A clearance or finger width of more than so many largest radii, whatever its length: a gripper with 60 mm of
-/// clearance may pick up pills of 4 mm, which is 15 times.
+/// The threshold of a clearance or finger width in largest radii. A gripper with 60 mm of clearance may pick up pills
+/// of 4 mm, which is 15 times.
 const FINGER_TO_RADIUS: f64 = 50.0;
-/// A clearance or finger width of more than so many longer sides of the table: a gripper may be larger than a tray.
+/// The threshold of a clearance or finger width in longer sides of the table: a gripper may be larger than a tray.
 const FINGER_TO_TABLE: f64 = 3.0;
-/// A clearance or finger width of less than this share of the smallest radius, where ...
+/// The lower threshold of a clearance or finger width in smallest radii, if that radius is at least [`HUGE_RADIUS`].
 const FINGER_IN_RADIUS: f64 = 1.0 / 30.0;
-/// ... that radius is so large, m. Thin fingers for large platters are not rare, but no gripper spans discs two metres
+/// See [`FINGER_IN_RADIUS`], m. Thin fingers for large platters are not rare, but no gripper spans discs two metres
 /// wide.
 const HUGE_RADIUS: f64 = 1.0;
-/// A table whose shorter side has more than so many largest radii, and ...
+/// The threshold of the table's shorter side in largest radii, if it is also at least [`HUGE_TABLE`].
 const TABLE_TO_RADIUS: f64 = 1000.0;
-/// ... is so long, m. No robot reaches over that.
+/// See [`TABLE_TO_RADIUS`], m: no robot reaches over that.
 const HUGE_TABLE: f64 = 100.0;
-/// A centre further from the table than so many of its longer sides.
+/// The distance of a centre from the table, in longer sides of the table, from which on the frame or the unit is wrong.
 const FAR_OFF: f64 = 10.0;
-/// An overlap as deep as this, m: few things on a table are as wide.
+/// The depth from which on an overlap may be a slip of unit, m: few things on a table are as wide.
 const HUGE_OVERLAP: f64 = 1.0;
 
 /// Warns of each slip.
