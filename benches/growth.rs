@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{close, complete, swept_finger_options};
+use singulate_planner::knowledge::{complete, derivable, swept_finger_options};
 use singulate_planner::plan::survey;
 use singulate_planner::scene::{ObjectDraft, RectangleDraft, Scene, SceneDraft, TableDraft};
 
@@ -29,7 +29,7 @@ fn time(scene: &Scene) -> Duration {
     let run = |_| {
         let started = Instant::now();
         let base = complete(scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
-        black_box(close(&base, |_| false, &Budget::unlimited()).expect("unlimited"));
+        black_box(derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited"));
         started.elapsed()
     };
     (0..9).map(run).min().expect("some runs")

@@ -2,7 +2,7 @@
 
 use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{close, complete, swept_finger_options};
+use singulate_planner::knowledge::{complete, derivable, swept_finger_options};
 use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 use super::cases::{count, scene};
@@ -47,7 +47,7 @@ pub(crate) fn too_much_for_lobs() -> SceneDraft {
 pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
     let scene = scene(draft.clone());
     let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
-    let closure = close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
+    let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let last = closure.order.last().expect("not all are locked");
     SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }
 }
@@ -56,7 +56,7 @@ pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
 pub(crate) fn locked(draft: SceneDraft) -> SceneDraft {
     let scene = scene(draft.clone());
     let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
-    let closure = close(&base, |_| false, &Budget::unlimited()).expect("unlimited");
+    let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let stuck = scene.indices().find(|object| !closure.derives(*object)).expect("some are locked");
     SceneDraft { target: Some(scene.object(stuck).id().to_owned()), ..draft }
 }

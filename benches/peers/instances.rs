@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use singulate::experiments::{Arrangement, PAPERS_CASES, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
+use singulate_planner::knowledge::{KnowledgeBase, complete, derivable, relevant, swept_finger_options};
 use singulate_planner::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
 use singulate_planner::search::{Outcome, Restriction, least};
 
@@ -93,7 +93,7 @@ fn hardest(recipe: &Recipe, seed: usize) -> Instance {
     let scene = scene(recipe, seed);
     let budget = Budget::unlimited();
     let base = complete(&scene, swept_finger_options, &budget).expect("within the limits");
-    let closure = close(&base, |_| false, &budget).expect("unlimited");
+    let closure = derivable(&base, |_| false, &budget).expect("unlimited");
     let bound = |target: ObjectIndex| match least(&base, target, &Restriction::default(), &budget) {
         Outcome::Least(set) => set.bound,
         Outcome::Underivable | Outcome::Interrupted(_) => 0,
@@ -131,11 +131,11 @@ pub(crate) fn crowd(scene: &Scene) -> Crowd {
     let budget = Budget::unlimited();
     let work = || {
         let base = complete(scene, swept_finger_options, &budget).expect("within the limits");
-        let closure = close(&base, |_| false, &budget).expect("unlimited");
+        let closure = derivable(&base, |_| false, &budget).expect("unlimited");
         (base, closure)
     };
     let ((base, closure), time) = fastest(RUNS_ALONE, work);
-    let (_, closing) = fastest(RUNS, || close(&base, |_| false, &budget).expect("unlimited"));
+    let (_, closing) = fastest(RUNS, || derivable(&base, |_| false, &budget).expect("unlimited"));
     let derivable = scene.indices().filter(|object| closure.derives(*object)).count();
     Crowd { base, derivable, time, closing }
 }

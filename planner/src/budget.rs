@@ -1,20 +1,20 @@
-//! How long a computation may go on. Time and cancellation come in as an argument, so that the core reads no clock.
+//! The time budget of a computation. The caller passes in the clock, so that the planner itself reads none.
 
 use core::time::Duration;
 
-/// What the edge lends to the core: the time since the request arrived, and whether anybody still wants the answer.
+/// The caller's clock: the time since the request arrived, and whether the caller still waits.
 pub trait Clock {
     /// Time since the request arrived.
     fn elapsed(&self) -> Duration;
     /// True once the caller has gone.
     fn cancelled(&self) -> bool;
-    /// Time that the caller took back: what is left is shorter by so much, and the best so far is still wanted.
+    /// Time that the caller took back. The deadline comes earlier by so much; the best answer so far is still wanted.
     fn withdrawn(&self) -> Duration {
         Duration::ZERO
     }
 }
 
-/// How far the search for the least set has come.
+/// The progress of the search for the least set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Incumbent {
     /// The size of the best set known.
@@ -37,7 +37,7 @@ impl Clock for Unlimited {
     }
 }
 
-/// The computation was told to stop: its time is spent, or its caller has gone.
+/// The computation must stop: its time is spent, or its caller has gone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("interrupted")]
 pub struct Interrupted;
@@ -61,19 +61,19 @@ impl<'a> Budget<'a> {
         Budget { clock: &Unlimited, deadline: Duration::MAX, observer: None }
     }
 
-    /// The same, and somebody is told how far the search has come.
+    /// The same budget, with an observer of the search's progress.
     #[must_use]
     pub fn observed(self, observer: &'a dyn Fn(Incumbent)) -> Self {
         Self { observer: Some(observer), ..self }
     }
 
-    /// The same, and nobody is told: for questions besides the one that was asked.
+    /// The same budget without an observer, for searches beside the main one.
     #[must_use]
     pub fn unobserved(self) -> Self {
         Self { observer: None, ..self }
     }
 
-    /// Tell how far the search has come, often rather than seldom; what is told twice is the observer's to drop.
+    /// Reports progress to the observer. It may be called often: the observer drops repetitions.
     pub fn note(&self, incumbent: Incumbent) {
         if let Some(observer) = self.observer {
             observer(incumbent);
@@ -115,10 +115,10 @@ impl<'a> Budget<'a> {
 mod tests {
     use super::*;
 
-    /// So many ms have passed; the caller has gone.
+    /// The ms passed, and whether the caller has gone.
     struct At(u64, bool);
 
-    /// So many ms have passed and so many were taken back.
+    /// The ms passed, and the ms taken back.
     struct Less(u64, u64);
 
     impl Clock for Less {
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn who_asked_is_told_and_nobody_else() {
+    fn only_an_observed_budget_reports_progress() {
         let told = core::cell::Cell::new(None);
         let observer = |incumbent| told.set(Some(incumbent));
         let budget = Budget::unlimited().observed(&observer);

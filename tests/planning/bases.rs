@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde::Deserialize;
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, close};
+use singulate_planner::knowledge::{KnowledgeBase, derivable};
 use singulate_planner::scene::ObjectIndex;
 use singulate_planner::search::{Memory, Outcome, Restriction, least_within};
 
@@ -42,7 +42,7 @@ fn solve_all(memory: &Memory) {
                 assert_eq!(found.derivation.order.len(), found.bound, "{}", case.name);
                 for landmark in &found.landmarks {
                     let held = |object| object == target || landmark.contains(&object);
-                    let closure = close(&base, held, &Budget::unlimited()).unwrap();
+                    let closure = derivable(&base, held, &Budget::unlimited()).unwrap();
                     assert!(!closure.derives(target), "{}: {landmark:?} is no landmark", case.name);
                 }
             }

@@ -2,7 +2,7 @@
 
 use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, close, complete, relevant, swept_finger_options};
+use singulate_planner::knowledge::{KnowledgeBase, complete, derivable, relevant, swept_finger_options};
 use singulate_planner::plan::{Settings, Verdict, plan};
 use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits};
 use singulate_planner::search::{Outcome, Restriction, least};
@@ -109,7 +109,7 @@ fn a_lock_of_a_small_crowd_holds_and_no_part_of_its_core_does() {
         let target = 1 << scene.target().get();
         let parts = (0..core).filter(|part| part & !core == 0 && part & target != 0);
         assert_eq!(parts.into_iter().find(|&part| holds(part)), None, "seed {seed}: {lock:?}");
-        let closure = close(&base, |_| false, &Budget::unlimited()).unwrap();
+        let closure = derivable(&base, |_| false, &Budget::unlimited()).unwrap();
         let stuck = scene.indices().filter(|&o| !scene.object(o).fixed() && !closure.derives(o));
         assert_eq!(
             blocked & !set(&lock.blocked.iter().copied().filter(|&o| scene.object(o).fixed()).collect::<Vec<_>>()),

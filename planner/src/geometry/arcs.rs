@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-/// A stretch of yaws, rad: `lo` < `hi` within [0, period]. One that runs over 0 is kept as two.
+/// An interval of yaws, rad: `lo` < `hi` within [0, period]. One that runs over 0 is kept as two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
     /// Lower end.
@@ -19,12 +19,12 @@ pub struct ArcSet {
     arcs: SmallVec<[Arc; 4]>,
 }
 
-/// A maximal stretch of free yaws.
+/// A maximal interval of free yaws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeInterval {
-    /// Where it starts, in [0, period).
+    /// Its start, in [0, period).
     pub start: f64,
-    /// How wide it is, rad; the period where nothing is blocked.
+    /// Its width, rad; the period where nothing is blocked.
     pub width: f64,
 }
 
@@ -39,7 +39,8 @@ impl ArcSet {
         Self { period, arcs: SmallVec::from_slice(&[Arc { lo: 0.0, hi: period }]) }
     }
 
-    /// The arcs from `lo` to `hi` (any reals, `lo` ≤ `hi`), folded into the period. One at least a period long is all.
+    /// The arcs from `lo` to `hi` (any reals, `lo` ≤ `hi`), folded into the period. An arc at least one period long
+    /// blocks everything.
     pub fn fold(period: f64, arcs: &[(f64, f64)]) -> Self {
         if arcs.iter().any(|(lo, hi)| hi - lo >= period) {
             return Self::full(period);
@@ -89,7 +90,7 @@ impl ArcSet {
         matches!(self.arcs.as_slice(), [Arc { lo, hi }] if *lo <= 0.0 && *hi >= self.period)
     }
 
-    /// The maximal free stretches. One that runs over 0 comes last, in one piece.
+    /// The maximal free intervals. One that runs over 0 comes last, in one piece.
     pub fn free(&self) -> impl Iterator<Item = FreeInterval> + '_ {
         let period = self.period;
         let whole = self.is_empty().then_some(FreeInterval { start: 0.0, width: period });
@@ -102,7 +103,7 @@ impl ArcSet {
         whole.into_iter().chain(between).chain(round)
     }
 
-    /// The widest free stretch, the first of equals.
+    /// The widest free interval, the first of equals.
     pub fn widest_free(&self) -> Option<FreeInterval> {
         self.free().reduce(|best, next| if next.width > best.width { next } else { best })
     }

@@ -4,10 +4,10 @@
 //! x axis points along the finger. A disc blocks it when its centre is nearer to the rectangle than ρ, that is when the
 //! centre lies inside the rectangle grown by ρ, a convex shape K with round corners. An obstacle at distance d from the
 //! object moves on the circle |p| = d as the gripper turns. Along the upper border of K, from (r − ρ, 0) over the inner
-//! edge, inner corner, side and outer corner to (R + ρ, 0), the distance |p| first grows from |r − ρ| to D + ρ (where the
-//! normal points away from the origin through the outer corner, D² = R² + h²), then falls to R + ρ. (The clockwise
-//! tangent t has p·t ≥ 0 on every piece before that point and ≤ 0 after it.) So the circle crosses the growing part once,
-//! at the *last* blocked offset, and for R + ρ < d < D + ρ the falling part once, at the *first*.
+//! edge, inner corner, side and outer corner to (R + ρ, 0), the distance |p| first grows from |r − ρ| to D + ρ (where
+//! the normal points away from the origin through the outer corner, D² = R² + h²), then falls to R + ρ. (The clockwise
+//! tangent t has p·t ≥ 0 on every piece before that point and ≤ 0 after it.) So the circle crosses the growing part
+//! once, at the *last* blocked offset, and for R + ρ < d < D + ρ the falling part once, at the *first*.
 
 /// The rectangle that an open finger sweeps: [`inner`, `outer`] × [−`half_width`, `half_width`], m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,9 +23,9 @@ pub struct SweptFinger {
 /// The offsets δ between finger and bearing, in [0, π], at which an obstacle blocks the finger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BlockedOffsets {
-    /// None: it is out of reach, or wholly inside the object.
+    /// None: the obstacle is out of reach, or wholly inside the object.
     Clear,
-    /// All: it covers the object's centre so far that no turn helps.
+    /// All: the obstacle covers the object's centre so far that no turn helps.
     Every,
     /// Those between the two, ends free. `first` is 0 unless the tip clears the obstacle when it points straight at it.
     Between {
@@ -49,8 +49,8 @@ impl SweptFinger {
         }
     }
 
-    /// Where the circle crosses the growing part of the border. The pieces are told apart by the distance of their ends,
-    /// which is the same as asking which formula's point lies on its own piece, without its rounding.
+    /// The offset where the circle crosses the growing part of the border. The piece is chosen by the distances of its
+    /// ends, which avoids the rounding of a test on the crossing itself.
     fn last(&self, d: f64, rho: f64) -> f64 {
         let Self { inner: r, outer, half_width: h } = *self;
         let (edge, side, square) = (r - rho, h + rho, d * d);
@@ -65,7 +65,7 @@ impl SweptFinger {
         }
     }
 
-    /// Where the circle crosses the falling part of the border; 0 where it does not.
+    /// The offset where the circle crosses the falling part of the border; 0 where it does not.
     fn first(&self, d: f64, rho: f64) -> f64 {
         let tip = self.outer + rho;
         let h = self.half_width;
@@ -79,14 +79,15 @@ impl SweptFinger {
     }
 }
 
-/// The other leg of a right triangle with hypotenuse `d`; as a product, which loses no digits when the legs differ.
+/// The other leg of a right triangle with hypotenuse `d`. Computed as a product, which loses no digits when the legs
+/// differ.
 fn leg(d: f64, leg: f64) -> f64 {
     ((d - leg) * (d + leg)).max(0.0).sqrt()
 }
 
 /// The two directions in which the circle of radius `d` round the origin meets the circle of radius `rho` round the
-/// corner (x, h), nearer to the finger's axis first. Law of cosines, with the half-angle tangent, which keeps its digits
-/// where the circles all but touch (acos does not).
+/// corner (x, h), nearer to the finger's axis first. Law of cosines, with the half-angle tangent, which keeps its
+/// digits where the circles all but touch (acos does not).
 fn corner(x: f64, h: f64, d: f64, rho: f64) -> (f64, f64) {
     let to_corner = (x * x + h * h).sqrt();
     let swing = (rho - (d - to_corner)) * (rho + (d - to_corner));

@@ -3,7 +3,7 @@
 use super::arcs::{ArcSet, wrap};
 use crate::scene::Gripper;
 
-/// A yaw that is free, with the room round it.
+/// A free yaw with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grasp {
     /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
@@ -12,10 +12,11 @@ pub struct Grasp {
     pub slack: f64,
 }
 
-/// An interval's width is a difference of sums of angles; what knowledge counts as wide enough must be so here, rad.
+/// Rounding of an interval's width, rad. An interval that is wide enough for the knowledge base must be wide enough
+/// here.
 const ROUNDING: f64 = 1e-12;
 
-/// The middle of the widest free interval, if that one is wide enough to count ([`Gripper::min_free_width`]).
+/// The middle of the widest free interval, if it is at least [`Gripper::min_free_width`] wide.
 pub fn widest_grasp(gripper: &Gripper, blocked: &ArcSet) -> Option<Grasp> {
     let widest = blocked.widest_free()?;
     if blocked.is_empty() {

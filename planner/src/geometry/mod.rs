@@ -1,6 +1,6 @@
 //! Exact geometry of fingers and discs: which yaws an obstacle blocks, which remain free.
 //!
-//! Between two ends of shadows nothing changes, so no angle is ever sampled: interval ends come from closed forms.
+//! No angle is sampled: blocked intervals change only at the ends of shadows, and these come from closed forms.
 
 mod arcs;
 mod finger;

@@ -4,12 +4,13 @@ use super::arcs::ArcSet;
 use super::finger::{BlockedOffsets, SweptFinger};
 use crate::scene::{Disc, Gripper, distance};
 
-/// A model of grasping: the shadow of an obstacle (third) on a grasp of an object (second), when the fingers must stay the
-/// gripper's margin plus some extra (fourth, m) away from it. Reaches no further than the fingers' corners.
+/// A model of grasping: the shadow of an obstacle (third) on a grasp of an object (second), when the fingers must stay
+/// the gripper's margin plus some extra (fourth, m) away from it. Reaches no further than the fingers' corners.
 pub type Shadow = fn(&Gripper, &Disc, &Disc, f64) -> ArcSet;
 
-/// The shadow of the swept finger: of `obstacle` on a grasp of `grasped`, when the fingers must stay the gripper's margin plus `extra` (m) away
-/// from it. The k fingers are 2π/k apart, so modulo that period one finger's shadow is the gripper's.
+/// The shadow of `obstacle` on a grasp of `grasped` by the swept finger model, when the fingers must stay the gripper's
+/// margin plus `extra` (m) away from it. The k fingers are 2π/k apart, so modulo that period one finger's shadow is the
+/// gripper's.
 pub fn shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: f64) -> ArcSet {
     let period = gripper.period();
     let finger = SweptFinger {

@@ -1,4 +1,4 @@
-//! The knowledge base: per object its options.
+//! The knowledge base: per object its options, the bodies of its Horn rules.
 
 use crate::scene::ObjectIndex;
 
@@ -6,9 +6,9 @@ use crate::scene::ObjectIndex;
 /// ones first. An object with the empty option is graspable now; one with no option can never be moved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KnowledgeBase {
-    /// Per object the number of its first rule, and the count of all at the end.
+    /// Per object the number of its first rule; at the end the number of all rules.
     first_rule: Vec<u32>,
-    /// Per rule where its body starts, and the length of all at the end.
+    /// Per rule the start of its body; at the end the length of all bodies.
     first_member: Vec<u32>,
     members: Vec<ObjectIndex>,
 }
@@ -19,7 +19,7 @@ impl KnowledgeBase {
         Self { first_rule: vec![0], first_member: vec![0], members: Vec::new() }
     }
 
-    /// Add the next object with its options.
+    /// Adds the next object with its options.
     pub fn push(&mut self, options: Vec<Vec<ObjectIndex>>) {
         for option in subset_minimal(options) {
             self.members.extend_from_slice(&option);
@@ -28,7 +28,7 @@ impl KnowledgeBase {
         self.first_rule.push(offset(self.first_member.len() - 1));
     }
 
-    /// The base of `count` objects in which object `order[n]` has the options that object n has here, and all others none.
+    /// A base of `count` objects. Object `order[n]` gets the options that object n has here, all others get none.
     pub(super) fn renumbered(&self, order: &[ObjectIndex], count: usize) -> Self {
         let mut position = vec![None; count];
         order.iter().zip(self.objects()).for_each(|(object, here)| position[object.get()] = Some(here));
@@ -41,7 +41,7 @@ impl KnowledgeBase {
         base
     }
 
-    /// Add the next object with the options that `object` has in another base, or with none.
+    /// Adds the next object with the options that `object` has in another base, or with none.
     pub(super) fn push_same(&mut self, other: &Self, object: Option<ObjectIndex>) {
         for rule in object.into_iter().flat_map(|object| other.rules_of(object)) {
             self.members.extend_from_slice(other.body(rule));
@@ -80,7 +80,7 @@ impl KnowledgeBase {
         self.first_rule[object.get()] as usize..self.first_rule[object.get() + 1] as usize
     }
 
-    /// The objects of which one rule needs all.
+    /// The body of a rule: the objects that must all be relocated.
     pub(super) fn body(&self, rule: usize) -> &[ObjectIndex] {
         &self.members[self.first_member[rule] as usize..self.first_member[rule + 1] as usize]
     }
@@ -109,7 +109,7 @@ fn offset(length: usize) -> u32 {
     u32::try_from(length).expect("the limits of a scene keep a base below 2^32 entries")
 }
 
-/// Only those options that hold no other, in canonical order.
+/// The options that are no supersets of another, in canonical order.
 fn subset_minimal(mut options: Vec<Vec<ObjectIndex>>) -> Vec<Vec<ObjectIndex>> {
     for option in &mut options {
         option.sort_unstable();
@@ -125,7 +125,7 @@ fn subset_minimal(mut options: Vec<Vec<ObjectIndex>>) -> Vec<Vec<ObjectIndex>> {
     kept
 }
 
-/// Both sorted.
+/// True if `small` is a subset of `large`; both are sorted.
 fn is_subset(small: &[ObjectIndex], large: &[ObjectIndex]) -> bool {
     let mut rest = large.iter();
     small.iter().all(|wanted| rest.by_ref().find(|member| *member >= wanted) == Some(wanted))

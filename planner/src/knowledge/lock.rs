@@ -1,60 +1,62 @@
 //! Locks: sets of objects that hold each other.
 //!
-//! A set is a lock when each movable member has some member in every one of its options, for then the first of them to be
-//! grasped can't exist. The objects that forward chaining leaves underived are the greatest lock.
+//! A set is a lock if every option of every movable member holds a member: then no member can be the first to be
+//! grasped. The objects that forward chaining does not derive are the greatest lock.
 
 use std::collections::VecDeque;
 
 use super::base::KnowledgeBase;
-use super::closure::Closure;
+use super::derivable::Derivable;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
 /// The greatest lock and an inclusion-minimal one within it, both in index order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Lock {
-    /// Every object with options that can't be derived. (Those without are added by whoever knows why they have none.)
+pub struct Locks {
+    /// The greatest lock: the underived objects that have options. (The caller adds those without options, since it
+    /// knows why they have none.)
     pub blocked: Vec<ObjectIndex>,
-    /// A lock that holds the target; inclusion-minimal unless the budget ended first.
+    /// A lock with the target; inclusion-minimal unless the budget ended first.
     pub core: Vec<ObjectIndex>,
 }
 
-/// The lock that holds `target`, which `closure` (of the same base) must not derive. An object without options is a member
-/// that needs no proof of its own.
+/// The locks around `target`, which must not be `derivable` (from the same base). An object without options may be a
+/// member as it is.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends before there is a lock at all.
-pub fn lock(
+pub fn locks(
     base: &KnowledgeBase,
-    closure: &Closure,
+    derivable: &Derivable,
     target: ObjectIndex,
     budget: &Budget<'_>,
-) -> Result<Lock, Interrupted> {
-    let mut grown = Core::grow(base, closure, target, budget)?;
+) -> Result<Locks, Interrupted> {
+    let mut grown = GrowingLock::grow(base, derivable, target, budget)?;
     grown.minimise(budget);
     let movable = |object: &ObjectIndex| !base.rules_of(*object).is_empty();
-    let blocked = base.objects().filter(|object| !closure.derives(*object)).filter(movable).collect();
-    Ok(Lock { blocked, core: grown.members() })
+    let blocked = base.objects().filter(|object| !derivable.derives(*object)).filter(movable).collect();
+    Ok(Locks { blocked, core: grown.members() })
 }
 
 /// A lock under construction.
-struct Core<'a> {
+struct GrowingLock<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
     member: Vec<bool>,
-    /// In the order in which they came in.
+    /// The members in the order in which they entered.
     entered: Vec<ObjectIndex>,
-    /// Per rule of a member how many members its body holds.
+    /// Per rule of a member the number of members in its body.
     holders: Vec<u32>,
-    /// Per object the rules that need it, of members only.
+    /// Per object the rules of members that have it in their bodies.
     condition_of: Vec<Vec<(u32, ObjectIndex)>>,
 }
 
-impl<'a> Core<'a> {
-    /// From the target outwards: whoever is in needs, for each option that no member holds, one more underived member.
+impl<'a> GrowingLock<'a> {
+    /// Grows a lock from the target outwards. For each option of a member that holds no member, an underived object of
+    /// that option enters.
     fn grow(
         base: &'a KnowledgeBase,
-        closure: &Closure,
+        derivable: &Derivable,
         target: ObjectIndex,
         budget: &Budget<'_>,
     ) -> Result<Self, Interrupted> {
@@ -70,7 +72,7 @@ impl<'a> Core<'a> {
         core.enter(target);
         while let Some(object) = open.pop_front() {
             budget.check()?;
-            while let Some(holder) = core.best_holder(object, closure) {
+            while let Some(holder) = core.best_holder(object, derivable) {
                 core.enter(holder);
                 open.push_back(holder);
             }
@@ -95,12 +97,12 @@ impl<'a> Core<'a> {
         }
     }
 
-    /// The underived object that holds most of the options that no member holds yet; one that can never be moved is best,
-    /// for it needs no holder of its own.
-    fn best_holder(&self, object: ObjectIndex, closure: &Closure) -> Option<ObjectIndex> {
+    /// The underived object in most of those options of `object` that hold no member yet. An object without options is
+    /// best, since it needs no holder itself.
+    fn best_holder(&self, object: ObjectIndex, derivable: &Derivable) -> Option<ObjectIndex> {
         let open: Vec<usize> = self.base.rules_of(object).filter(|&rule| self.holders[rule] == 0).collect();
         let mut candidates: Vec<ObjectIndex> =
-            open.iter().flat_map(|&rule| self.base.body(rule)).copied().filter(|o| !closure.derives(*o)).collect();
+            open.iter().flat_map(|&rule| self.base.body(rule)).copied().filter(|o| !derivable.derives(*o)).collect();
         candidates.sort_unstable();
         let runs = candidates.chunk_by(|a, b| a == b);
         let rank =
@@ -108,7 +110,7 @@ impl<'a> Core<'a> {
         runs.max_by_key(rank).map(|run| run[0])
     }
 
-    /// Leave members out, last come first, as long as the target stays held.
+    /// Drops members, the latest first, as long as the target stays locked.
     fn minimise(&mut self, budget: &Budget<'_>) {
         for at in (0..self.entered.len()).rev() {
             if budget.check().is_err() {
@@ -121,7 +123,8 @@ impl<'a> Core<'a> {
         }
     }
 
-    /// Whoever loses the last holder of an option leaves as well. If that reaches the target, all come back.
+    /// Drops a member, and then each member with an option that no longer holds one. If the target would be dropped,
+    /// all are restored.
     fn leave_unless_target_falls(&mut self, object: ObjectIndex) {
         let mut left = vec![object];
         self.member[object.get()] = false;
@@ -154,7 +157,7 @@ impl<'a> Core<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::close;
+    use super::super::derivable;
     use super::*;
     use proptest::prelude::*;
 
@@ -167,15 +170,15 @@ mod tests {
         members.iter().all(|&member| base.options(member).all(|option| option.iter().any(|o| members.contains(o))))
     }
 
-    fn check(base: &KnowledgeBase) -> Option<Lock> {
+    fn check(base: &KnowledgeBase) -> Option<Locks> {
         let target = ObjectIndex::new(0);
-        let closure = close(base, |_| false, &Budget::unlimited()).expect("unlimited");
-        if closure.derives(target) {
+        let derivable = derivable(base, |_| false, &Budget::unlimited()).expect("unlimited");
+        if derivable.derives(target) {
             return None;
         }
-        let lock = lock(base, &closure, target, &Budget::unlimited()).expect("unlimited");
+        let lock = locks(base, &derivable, target, &Budget::unlimited()).expect("unlimited");
         assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
-        let with_stuck: Vec<_> = base.objects().filter(|object| !closure.derives(*object)).collect();
+        let with_stuck: Vec<_> = base.objects().filter(|object| !derivable.derives(*object)).collect();
         assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));
         let n = lock.core.len();
         for subset in 0..(1_u32 << n) - 1 {

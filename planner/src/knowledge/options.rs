@@ -1,8 +1,8 @@
-//! The subset-minimal sets of obstacles that must go before an object can be grasped.
+//! Options: the subset-minimal sets of obstacles that must go before an object can be grasped.
 //!
 //! As the yaw turns once through its period, the set of blockers changes only at the ends of shadows. A band of yaws of
 //! width t is free exactly when its middle is outside every shadow widened by t/2 on each side, so the sweep runs over
-//! widened shadows: options that leave only a sliver of free yaw don't arise. Only points where shadows have just ended
+//! widened shadows, and no option leaves only a sliver of free yaw. Only points where shadows have just ended
 //! and the next one starts can be minimal, so at most one candidate per shadow is kept.
 
 use crate::geometry::ArcSet;
@@ -19,7 +19,7 @@ pub struct Blocker {
 
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Turn {
-    /// Ends come first where both lie at one yaw: an arc's end is free.
+    /// Ends sort before starts at the same yaw, since an arc's end is free.
     End,
     Start,
 }
@@ -36,7 +36,8 @@ struct Event {
 /// The result may still hold supersets; [`super::KnowledgeBase::push`] drops them.
 pub fn minimal_options(blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<ObjectIndex>> {
     let mut events = Vec::with_capacity(4 * blockers.len());
-    // How many widened arcs of each blocker cover the current yaw; a whole turn blocked is an arc that never ends.
+    // Per blocker the number of its widened arcs that cover the current yaw. One that blocks every yaw is an arc
+    // without end.
     let mut depth = vec![0_u32; blockers.len()];
     for (at, blocker) in blockers.iter().enumerate() {
         match widened(&blocker.shadow, min_free_width) {
@@ -87,11 +88,11 @@ fn widened(shadow: &ArcSet, width: f64) -> Option<Vec<(f64, f64)>> {
     if gaps.is_empty() {
         return None;
     }
-    // Between two neighbouring gaps that count lies one widened arc, whatever slivers it swallows.
+    // Between two neighbouring gaps that are wide enough lies one widened arc; it may cover narrower gaps.
     let wrap = |yaw: f64| if yaw >= period { yaw - period } else { yaw };
     let next = gaps.iter().cycle().skip(1);
     let arcs = gaps.iter().zip(next).map(|(gap, next)| {
-        // By its distance from the end before it: where a gap is just wide enough, rounding must not swap the two.
+        // Computed from the end before it: where a gap is only just wide enough, rounding must not swap end and start.
         let start = wrap(wrap(gap.start + width / 2.0) + (gap.width - width));
         let end = wrap(next.start + width / 2.0);
         (start, end)

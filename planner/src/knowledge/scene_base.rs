@@ -6,8 +6,8 @@ use crate::budget::{Budget, Interrupted};
 use crate::geometry::{Shadow, shadow};
 use crate::scene::{ObjectIndex, Scene};
 
-/// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base of
-/// this size takes a few dozen megabytes, and search as much again.
+/// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base
+/// of this size takes a few dozen megabytes, and search as much again.
 pub const MAX_BASE_SIZE: usize = 1_000_000;
 
 /// Why there is no base.
@@ -27,7 +27,8 @@ impl From<Interrupted> for NoBase {
     }
 }
 
-/// What gives a movable object its options. None may be empty-handed: to move all that stands in reach is one.
+/// A grasp model as rules: the options of a movable object. Returns at least one, since removing everything in reach
+/// always frees the object.
 pub type OptionsOf = fn(&Scene, ObjectIndex) -> Vec<Vec<ObjectIndex>>;
 
 /// The base of every movable object.
@@ -52,7 +53,7 @@ pub fn completed(
     let mut base = KnowledgeBase::new();
     for object in scene.indices() {
         budget.check()?;
-        // A movable object that was looked at has an option: to move all that blocks it.
+        // An object without options in `part` was not derived there: every movable object has at least one.
         if part.rules_of(object).is_empty() {
             base.push(movable_options(scene, object, options_of));
         } else {
@@ -65,8 +66,8 @@ pub fn completed(
     Ok(base)
 }
 
-/// The base of those objects that can matter to the target: the target, and what stands in an option of one that matters.
-/// All others have no option here, which changes nothing, for no rule that matters names them.
+/// The base of the relevant objects: the target, and every member of an option of a relevant object. All others have no
+/// options here. That changes nothing for the target, since no rule of a relevant object names them.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
@@ -77,7 +78,7 @@ pub fn relevant(
     budget: &Budget<'_>,
 ) -> Result<KnowledgeBase, NoBase> {
     let count = scene.objects().len();
-    // In the order in which they are reached; sorted into the base at the end.
+    // The relevant objects in breadth-first order; renumbered at the end.
     let mut reached = KnowledgeBase::new();
     let mut seen = vec![false; count];
     seen[target.get()] = true;
@@ -117,12 +118,13 @@ pub fn fixed_blockers(
     Ok(found)
 }
 
-/// None for a fixed object. Options that hold a fixed object stay: no rule with one ever fires, and locks need them.
+/// The options of an object; none for a fixed one. Options with a fixed member stay: their rules never fire, and locks
+/// need them.
 fn movable_options(scene: &Scene, object: ObjectIndex, options_of: OptionsOf) -> Vec<Vec<ObjectIndex>> {
     if scene.object(object).fixed() { Vec::new() } else { options_of(scene, object) }
 }
 
-/// The options of a movable object by the swept finger.
+/// The options of a movable object by the swept finger model.
 pub fn swept_finger_options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
     minimal_options(&blockers(scene, object, shadow), scene.gripper().min_free_width())
 }

@@ -1,14 +1,14 @@
-//! How one of the paper's searches ends.
+//! The result of a search of the paper.
 
 use crate::search::Derivation;
 
-/// What a search of the paper's says. It comes without proof.
+/// The result of a search of the paper, without proof.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Conclusion {
     /// Relocate these, in this order.
     Sequence(Derivation),
-    /// It knows no sequence and says that there is none.
+    /// The search found no sequence and concludes that there is none.
     Deadlock,
-    /// It reached its limit of memory first.
+    /// The search reached its memory limit first.
     TooLarge,
 }

@@ -9,8 +9,8 @@ use crate::scene::ObjectIndex;
 pub(super) type Clause = Vec<ObjectIndex>;
 
 /// conjugateDNFs of Algorithm 1: the conjunction of several DNFs as one, by the distributive law. Logically equivalent
-/// clauses, here equal sets, appear once; a clause that holds another one stays. The product is exponential in the number
-/// of DNFs: `None` where it would hold more than `max_members` objects.
+/// clauses, here equal sets, appear once; a clause that holds another one stays. The product is exponential in the
+/// number of DNFs: `None` where it would hold more than `max_members` objects.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -40,7 +40,7 @@ pub(super) fn conjugate_dnfs(
     Ok(Some(product))
 }
 
-/// Both in index order, and so is the union.
+/// The union of two clauses.
 fn union(a: &[ObjectIndex], b: &[ObjectIndex]) -> Clause {
     let mut union: Clause = a.iter().chain(b).copied().collect();
     union.sort_unstable();

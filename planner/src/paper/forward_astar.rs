@@ -1,9 +1,9 @@
 //! The baseline of section V: A* forward from the objects that are graspable now.
 //!
-//! A state is the set of objects relocated so far; its successors relocate one more that is graspable by then; h = G_min
-//! counts the obstacles at the target's best yaw that still stand, which never overestimates. The paper's nodes hold one
-//! object each and it doesn't say whether it knows a set again that was reached in another order; A* as its source [13]
-//! has it does, and so does this: without that, the order of n independent moves alone would cost n! nodes.
+//! A state is the set of objects relocated so far; its successors relocate one more that is graspable by then; h =
+//! G_min counts the obstacles at the target's best yaw that still stand, which never overestimates. The paper's nodes
+//! hold one object each, and it doesn't say whether a set is recognised that was reached in another order. A* in its
+//! source [13] recognises it, and so does this: otherwise the order of n independent moves alone would cost n! nodes.
 
 use std::cmp::Reverse;
 use std::collections::hash_map::DefaultHasher;
@@ -16,7 +16,7 @@ use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 use crate::search::Derivation;
 
-/// How a state was reached: the last object relocated, and the state before.
+/// The step that led to a state: the last object relocated, and the state before.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     object: ObjectIndex,
@@ -27,20 +27,20 @@ struct Forward<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
     steps: Vec<Step>,
-    /// Cheapest f first, of those the one nearest to the goal, of those the oldest: (f, h, state).
+    /// (f, h, state): least f first, then least h, then the oldest.
     open: BinaryHeap<Reverse<(usize, usize, usize)>>,
     reached: Reached,
 }
 
-/// The sets that were reached, by the number of the state; one bit an object. All of them lie in a few large pieces of
-/// memory: given back one by one, half a million would keep a core for ten milliseconds after nobody wants them any more.
+/// The sets reached, by the number of the state; one bit an object. All lie in a few large pieces of memory: to free
+/// half a million small ones would take ten milliseconds after the answer.
 struct Reached {
     /// Words of a set.
     width: usize,
     words: Vec<u64>,
-    /// By a set's hash, the latest state that has it.
+    /// Per hash of a set the latest state with that hash.
     latest: HashMap<u64, usize, BuildHasherDefault<DefaultHasher>>,
-    /// By the state, the one before it of the same hash; itself where there is none.
+    /// Per state the previous one with the same hash; itself if there is none.
     before: Vec<usize>,
 }
 
@@ -53,7 +53,7 @@ impl Reached {
         &self.words[state * self.width..][..self.width]
     }
 
-    /// Take in the set of the next state. False if it was reached before.
+    /// Adds the set of the next state. False if it was reached before.
     fn insert(&mut self, set: &[u64]) -> bool {
         let (digest, state) = (digest(set), self.before.len());
         let latest = self.latest.get(&digest).copied();
@@ -80,7 +80,8 @@ fn digest(set: &[u64]) -> u64 {
 /// The state in which everything stands.
 const START: usize = 0;
 
-/// A* for `target` over a base of all objects, for every graspable object is a successor. Gives up after `max_states`.
+/// A* for `target`. The base must hold the rules of all objects, since every graspable object is a successor. Gives up
+/// after `max_states`.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -113,7 +114,7 @@ pub fn forward_astar(
 }
 
 impl Forward<'_> {
-    /// Relocate one more object.
+    /// Adds the successors of a state.
     fn expand(&mut self, state: usize, g: usize) {
         let mut relocated = self.reached.set(state).to_vec();
         for object in self.base.objects() {
@@ -131,7 +132,7 @@ impl Forward<'_> {
         }
     }
 
-    /// What was relocated, in order.
+    /// The objects relocated to reach a state, in order.
     fn sequence(&self, mut state: usize) -> Vec<ObjectIndex> {
         let mut order = Vec::new();
         while state != START {

@@ -11,7 +11,8 @@ const CELL: f64 = 0.005;
 /// b of Eq. 8, per square cell. The paper leaves it open: Eq. 8 then gives a.
 const B: f64 = 1.0;
 
-/// By so much each obstacle is widened on both sides, rad: round a sector that is free an interval is, wide enough to count.
+/// The widening of each obstacle on both sides, rad. With it, a sector is free only if a wide enough interval round it
+/// is free.
 const ROUNDING: f64 = 1e-9;
 
 /// One local obstacle in the histogram.
@@ -34,8 +35,8 @@ pub struct PolarHistogram {
 }
 
 impl PolarHistogram {
-    /// The histogram round `object`, over all obstacles that reach into the ring which its fingers sweep. A yaw tolerance,
-    /// which the paper doesn't have, widens each obstacle on both sides.
+    /// The histogram round `object`, over all obstacles that reach into the ring which its fingers sweep. A yaw
+    /// tolerance, which the paper doesn't have, widens each obstacle on both sides.
     pub fn around(scene: &Scene, object: ObjectIndex) -> Self {
         let (gripper, grasped) = (scene.gripper(), scene.object(object).disc());
         let outer = grasped.radius + gripper.clearance();
@@ -71,8 +72,8 @@ impl PolarHistogram {
         (0..360_u32).map(|z| self.obstacles.iter().map(|obstacle| obstacle.h(f64::from(z))).sum()).collect()
     }
 
-    /// G(z) = Σ_i G_i(z) for z = 0, 1, … below θ_k degrees (Eq. 2 and 11). Where 360/k is no whole number, H is looked up
-    /// between its sectors.
+    /// G(z) = Σ_i G_i(z) for z = 0, 1, … below θ_k degrees (Eq. 2 and 11). Where 360/k is no whole number, H is looked
+    /// up between its sectors.
     pub fn g(&self) -> Vec<f64> {
         self.sectors().map(|z| self.obstacles.iter().map(|obstacle| obstacle.g(z, self.fingers)).sum()).collect()
     }
@@ -109,7 +110,8 @@ impl LocalObstacle {
     }
 }
 
-/// The options of a movable object by the sector model: its local obstacle sets, of which the base keeps the minimal ones.
+/// The options of a movable object by the sector model: its local obstacle sets, of which the base keeps the minimal
+/// ones.
 pub fn sector_options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
     PolarHistogram::around(scene, object).local_sets()
 }

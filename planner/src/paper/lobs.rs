@@ -16,12 +16,12 @@ use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 use crate::search::Derivation;
 
-/// A node of the search tree. OPEN gives out the cheapest first, of those the oldest.
+/// A node of the search tree. OPEN returns the cheapest first, among equals the oldest.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Node {
     /// g, the length of the sequence. (The algorithm counts the target too, which changes no order.)
     g: usize,
-    /// The order in which nodes were made.
+    /// The number of the node, in order of creation.
     number: usize,
     /// O_c, the objects to be relocated for this node.
     o_c: Clause,
@@ -88,7 +88,7 @@ fn is_true(base: &KnowledgeBase, object: ObjectIndex) -> bool {
 }
 
 /// The child's sequence: the parent's with the clause added. An object that is there already moves to the end if it is
-/// graspable; if not, there is no sequence, which is told by an empty one.
+/// graspable; if not, there is no sequence, and the result is empty.
 fn find_dup(base: &KnowledgeBase, o_s_r: &[ObjectIndex], clause: &[ObjectIndex]) -> Vec<ObjectIndex> {
     let duplicate = |object: &ObjectIndex| clause.binary_search(object).is_ok();
     if o_s_r.iter().any(|object| duplicate(object) && !is_true(base, *object)) {

@@ -1,10 +1,10 @@
-//! The angle that an obstacle takes from the gripper: Eq. 9 and 10.
+//! The angle that an obstacle blocks: Eq. 9 and 10.
 //!
 //! The finger is widened to the angle that it has at the grasped object's edge, so that graspable objects are called
 //! blocked. The ring ends at r_t + r_g, but the finger's outer corners reach a little farther (0.4 mm for the paper's
-//! plates): an obstacle that only they meet is overlooked. Eq. 10 is undefined for a disc inside the ring that the fingers
-//! sweep, and too small where the points in which the disc is widest, as seen from the grasped object, lie inside the ring.
-//! There the tangent angle is taken instead.
+//! plates): an obstacle that only they meet is overlooked. Eq. 10 is undefined for a disc inside the ring that the
+//! fingers sweep, and too small where the points in which the disc is widest, as seen from the grasped object, lie
+//! inside the ring. There the tangent angle is taken instead.
 
 use core::f64::consts::TAU;
 
@@ -25,8 +25,8 @@ pub(super) fn finger_angle(width: f64, radius: f64) -> f64 {
     2.0 * libm::atan(width / (2.0 * radius))
 }
 
-/// γ_i of Eq. 10, for an obstacle of `radius` (m) whose centre is `apart` (m) from that of the grasped object; `outer` is
-/// r_t + r_g (m). `None` where the obstacle is not local: it doesn't reach into the ring.
+/// γ_i of Eq. 10, for an obstacle of `radius` (m) whose centre is `apart` (m) from that of the grasped object; `outer`
+/// is r_t + r_g (m). `None` where the obstacle is not local: it doesn't reach into the ring.
 pub(super) fn obstacle_extent(outer: f64, apart: f64, radius: f64) -> Option<Extent> {
     if apart >= outer + radius {
         return None;
@@ -42,8 +42,8 @@ pub(super) fn obstacle_extent(outer: f64, apart: f64, radius: f64) -> Option<Ext
     })
 }
 
-/// The shadow of `obstacle` on a grasp of `grasped` by Eq. 9 and 10, the margin plus `extra` (m) added to the obstacle's
-/// radius. The paper has no margin; with 0 this is what it prints.
+/// The shadow of `obstacle` on a grasp of `grasped` by Eq. 9 and 10, the margin plus `extra` (m) added to the
+/// obstacle's radius. The paper has no margin; with a margin of 0 this is its formula.
 pub fn sector_shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: f64) -> ArcSet {
     let (period, apart) = (gripper.period(), distance(grasped.centre, obstacle.centre));
     let radius = obstacle.radius + gripper.margin() + extra;
@@ -56,7 +56,7 @@ pub fn sector_shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: 
     ArcSet::fold(period, &[(bearing - total / 2.0, bearing + total / 2.0)])
 }
 
-/// How many obstacles of a movable object there are for which Eq. 10 does not do and the tangent angle is taken.
+/// The number of obstacles of a movable object for which the tangent angle replaces Eq. 10.
 pub fn tangent_angles(scene: &Scene, object: ObjectIndex) -> usize {
     let (gripper, disc) = (scene.gripper(), scene.object(object).disc());
     let (outer, margin) = (disc.radius + gripper.clearance(), gripper.margin());

@@ -1,12 +1,12 @@
-//! Orders and places for one set of objects to relocate.
+//! An order and places for one set of objects to relocate.
 //!
-//! Depth-first over which object goes next and where, with a width that doubles each round: first the best place and the
-//! first order only, later more of both.
+//! Depth-first search over the next object and its place, with iterative broadening (Ginsberg & Harvey 1992): the width
+//! doubles each round, from the first order and the best places only to more of both.
 
 use nalgebra::Point2;
 
-use super::candidates::{Candidates, Wish};
-use super::effort::{Effort, Meter, Stop};
+use super::candidates::{Candidates, PlaceSpec};
+use super::effort::{Effort, EffortMeter, Stop};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
@@ -14,7 +14,7 @@ use crate::budget::{Budget, Interrupted};
 use crate::geometry::{Grasp, Shadow};
 use crate::scene::{ObjectIndex, Scene, distance};
 
-/// What to arrange.
+/// The task: a set of objects to relocate, with its limits.
 #[derive(Debug, Clone, Copy)]
 pub struct Task<'a> {
     /// The scene at the start.
@@ -23,8 +23,8 @@ pub struct Task<'a> {
     pub model: Shadow,
     /// The objects to relocate, in an order in which each becomes graspable.
     pub set: &'a [ObjectIndex],
-    /// How many relocations more than the set's there may be: of an object that only stands in the way of a place, or of
-    /// one that was moved before.
+    /// The most extra relocations beyond those of the set: of objects that only stand in the way of a place, or of
+    /// objects that were moved before.
     pub extra: usize,
     /// Which places are best.
     pub objective: Objective,
@@ -39,10 +39,11 @@ pub struct Arrangement {
     pub target_grasp: Grasp,
 }
 
-/// The widest round. Past that, variety is in the sets and in extra moves rather than in more places of the same kind.
+/// The width of the last round. Past that, other sets and extra moves promise more than further places of the same
+/// kind.
 const MAX_WIDTH: usize = 16;
 
-/// An arrangement of the task, `None` if none was found among the candidates or within the effort.
+/// An arrangement of the task. `None` if none was found among the candidates within the effort.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -51,7 +52,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
     loop {
         let mut arranger = Arranger {
             task,
-            table: Tabletop::new(Layout::new(task.scene, task.model), Meter::new(effort, budget)),
+            table: Tabletop::new(Layout::new(task.scene, task.model), EffortMeter::new(effort, budget)),
             width,
             truncated: false,
             relocations: Vec::new(),
@@ -68,7 +69,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
 struct Arranger<'a, 'e> {
     task: &'a Task<'a>,
     table: Tabletop<'a, 'e>,
-    /// How many objects, and how many places of each, are tried at each step.
+    /// The number of objects, and of places of each, that are tried at each step.
     width: usize,
     /// True if the width left something untried.
     truncated: bool,
@@ -76,7 +77,7 @@ struct Arranger<'a, 'e> {
 }
 
 impl Arranger<'_, '_> {
-    /// Relocate one of the remaining objects, then the rest.
+    /// Relocates one of the remaining objects, then the rest.
     fn step(&mut self, remaining: &[ObjectIndex], extra: usize) -> Result<Option<Arrangement>, Stop> {
         let target = self.task.scene.target();
         if remaining.is_empty() {
@@ -100,8 +101,8 @@ impl Arranger<'_, '_> {
         Ok(None)
     }
 
-    /// The first of the remaining objects that can be grasped, one more than the width at the most: all that is asked is
-    /// whether there are more.
+    /// The first of the remaining objects that can be grasped, at most one more than the width. The extra one shows that
+    /// the width left something out.
     fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
         let mut graspable = Vec::new();
         for &object in remaining {
@@ -113,7 +114,7 @@ impl Arranger<'_, '_> {
         Ok(graspable)
     }
 
-    /// Move some other object of whose absence `stuck` could make use.
+    /// Moves some other object whose absence gives `stuck` a place.
     fn make_room(
         &mut self,
         stuck: ObjectIndex,
@@ -135,7 +136,7 @@ impl Arranger<'_, '_> {
         Ok(None)
     }
 
-    /// Would `stuck` find a place if `object` were gone?
+    /// True if `stuck` has a place once `object` is gone.
     fn frees_a_place(
         &mut self,
         object: ObjectIndex,
@@ -145,14 +146,14 @@ impl Arranger<'_, '_> {
         let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != stuck).collect();
         self.table.layout.lift(object, true);
         self.table.layout.lift(stuck, true);
-        let mut candidates = Candidates::new(&self.table.layout, self.wish(stuck, 0.0));
+        let mut candidates = Candidates::new(&self.table.layout, self.spec(stuck, 0.0));
         let found = self.table.next_place(&mut candidates, stuck, &rest, |_| false)?;
         self.table.layout.lift(stuck, false);
         self.table.layout.lift(object, false);
         Ok(found.is_some())
     }
 
-    /// Try places for `object`, best first, and go on with `rest` from each.
+    /// Tries places for `object`, best first, and goes on with `rest` from each.
     fn relocate(
         &mut self,
         object: ObjectIndex,
@@ -178,13 +179,13 @@ impl Arranger<'_, '_> {
             if places.len() >= self.width {
                 break;
             }
-            let wish = self.wish(object, preferred);
+            let spec = self.spec(object, preferred);
             let mut candidates = if spread {
-                Candidates::spread(&self.table.layout, wish)
+                Candidates::spread(&self.table.layout, spec)
             } else {
-                Candidates::new(&self.table.layout, wish)
+                Candidates::new(&self.table.layout, spec)
             };
-            // Where one place leads nowhere, one next to it leads nowhere either.
+            // Where one place fails, its neighbours usually fail too.
             let near =
                 |places: &[(Point2<f64>, Grasp)], at| places.iter().any(|(other, _)| distance(*other, at) < radius);
             while places.len() < self.width
@@ -197,7 +198,7 @@ impl Arranger<'_, '_> {
             }
         }
         self.table.layout.lift(object, false);
-        // Whether there are more is not asked.
+        // There may be more places than were looked for.
         self.truncated |= places.len() >= self.width;
         Ok(places)
     }
@@ -223,8 +224,8 @@ impl Arranger<'_, '_> {
         Ok(done)
     }
 
-    fn wish(&self, object: ObjectIndex, preferred: f64) -> Wish {
-        Wish {
+    fn spec(&self, object: ObjectIndex, preferred: f64) -> PlaceSpec {
+        PlaceSpec {
             object,
             gap: self.task.scene.gripper().margin() + preferred,
             edge_gap: preferred,

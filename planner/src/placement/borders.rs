@@ -1,4 +1,4 @@
-//! What bounds the free space: the table's inner border, and a border round every obstacle and every keep-out.
+//! The borders of free space: one inside the table's edge, one round each obstacle and each keep-out.
 
 use nalgebra::Point2;
 use smallvec::SmallVec;
@@ -14,19 +14,19 @@ pub(super) struct Border {
 }
 
 impl Border {
-    /// Round an obstacle, at several distances.
+    /// Circles round an obstacle, at several distances.
     pub(super) fn rings(centre: Point2<f64>, radii: impl IntoIterator<Item = f64>) -> Self {
         let circles = radii.into_iter().map(|radius| Circle { centre, radius }).collect();
         Self { circles, sides: SmallVec::new() }
     }
 
-    /// Within a rectangle, `keep` from its border. Nothing where it is too small.
+    /// Inside a rectangle, `keep` from its edge. Empty where the rectangle is too small.
     pub(super) fn within(area: &Rectangle, keep: f64) -> Self {
         let inset = nalgebra::Vector2::new(keep, keep);
         Self { circles: SmallVec::new(), sides: sides(area.min() + inset, area.max() - inset, 0.0) }
     }
 
-    /// Round a rectangle, `keep` from it: its sides moved outwards, with rounded corners.
+    /// Round a rectangle, `keep` from it: its sides moved outwards, with round corners.
     pub(super) fn round(area: &Rectangle, keep: f64) -> Self {
         let (min, max) = (area.min(), area.max());
         let corners = [min, max, Point2::new(min.x, max.y), Point2::new(max.x, min.y)];
@@ -34,7 +34,7 @@ impl Border {
         Self { circles, sides: sides(min, max, keep) }
     }
 
-    /// Where two borders meet.
+    /// Adds the points where two borders meet.
     pub(super) fn meet(&self, other: &Self, mut add: impl FnMut(Point2<f64>)) {
         for circle in &self.circles {
             other.circles.iter().filter_map(|theirs| circle.meet(theirs)).flatten().for_each(&mut add);
@@ -46,7 +46,7 @@ impl Border {
         }
     }
 
-    /// The points of its curves nearest to and farthest from `point`.
+    /// Adds the points of its curves nearest to and farthest from `point`.
     pub(super) fn extremes(&self, point: Point2<f64>, mut add: impl FnMut(Point2<f64>)) {
         self.circles.iter().flat_map(|circle| circle.extremes(point)).for_each(&mut add);
         self.sides.iter().flat_map(|side| side.extremes(point)).for_each(add);
@@ -54,7 +54,7 @@ impl Border {
 
     /// No point of the border is farther from `point` than this, m.
     pub(super) fn farthest(&self, point: Point2<f64>) -> f64 {
-        // A side's ends lie on circles, where there are both.
+        // Where there are sides and circles, the ends of the sides lie on the circles.
         self.circles.iter().map(|circle| distance(circle.centre, point) + circle.radius).fold(0.0, f64::max)
     }
 }

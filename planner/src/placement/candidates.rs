@@ -1,8 +1,8 @@
-//! Places worth trying for one object, best first.
+//! Candidate places for one object, best first.
 //!
-//! The best place lies where two border curves of the free space meet, or where one of them has its extreme. Curves are
-//! expanded in the order of the best score that any of their points can have, so that places come out in the order of
-//! their score and only the curves that matter are ever looked at.
+//! The best place lies where two border curves of the free space meet, or where one of them has an extreme. The search
+//! is best first: a curve is expanded in the order of the best score that any of its points can have. So places come
+//! out in the order of their scores, and only the curves that matter are expanded.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,36 +11,37 @@ use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::borders::Border;
-use super::effort::{Meter, Stop};
+use super::effort::{EffortMeter, Stop};
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
 use crate::scene::{Disc, ObjectIndex, distance};
 
-/// How many places cost as much to come up with as one costs to try.
+/// Places that can be generated for the cost of trying one.
 const PLACES_PER_EFFORT: usize = 32;
 
-/// What a place must keep, and what makes it good.
+/// The requirements on a place, and the objective by which places are ranked.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wish {
+pub(super) struct PlaceSpec {
     pub(super) object: ObjectIndex,
-    /// Kept from other objects, m.
+    /// The gap to other objects, m.
     pub(super) gap: f64,
-    /// Kept from table edge and keep-outs, m.
+    /// The gap to the table's edge and to keep-outs, m.
     pub(super) edge_gap: f64,
     pub(super) objective: Objective,
 }
 
 /// Places in the order of their score.
 pub(super) struct Candidates {
-    wish: Wish,
+    spec: PlaceSpec,
     radius: f64,
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
     table: Border,
-    /// How far apart two obstacles' circles can still meet, m.
+    /// The largest radius of an obstacle's circles, m.
     span: f64,
-    /// The obstacles, and the keep-outs, whose meetings with all others are among the places already.
+    /// Per obstacle whether its border is expanded: the points where it meets other borders are in the heap.
     expanded: Vec<bool>,
+    /// The same per keep-out.
     expanded_areas: Vec<bool>,
     heap: BinaryHeap<Entry>,
 }
@@ -52,7 +53,8 @@ enum Kind {
     KeepOut(usize),
 }
 
-/// Higher scores first; among equals the smaller coordinates, so that the order is one and the same everywhere.
+/// An entry of the heap. Higher scores come first, among equals smaller coordinates, so that the order is the same on
+/// every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Entry {
     score: f64,
@@ -82,33 +84,33 @@ impl PartialOrd for Entry {
 
 impl Candidates {
     /// Places for an object that is lifted off `layout`.
-    pub(super) fn new(layout: &Layout<'_>, wish: Wish) -> Self {
-        let mut candidates = Self::empty(layout, wish);
+    pub(super) fn new(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
+        let mut candidates = Self::empty(layout, spec);
         candidates.add_table(layout);
         candidates.add_keep_outs(layout);
         candidates.add_obstacles(layout);
-        if wish.objective == Objective::ShortMoves {
+        if spec.objective == Objective::ShortMoves {
             candidates.add_spiral(layout);
         }
         candidates
     }
 
-    /// Places round the old one, the denser the nearer: a finger that comes by is satisfied with a step aside, and the
-    /// border of its shadow is none of the curves.
+    /// Adds places round the old one, denser near it. Often a step aside is enough to let a finger pass, and the
+    /// borders of shadows are not among the curves.
     fn add_spiral(&mut self, layout: &Layout<'_>) {
         let reach = 2.0 * layout.scene().gripper().corner_distance(self.radius);
         scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
     }
 
-    fn empty(layout: &Layout<'_>, wish: Wish) -> Self {
+    fn empty(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let scene = layout.scene();
-        let own = layout.disc(wish.object);
-        let origin = match wish.objective {
+        let own = layout.disc(spec.object);
+        let origin = match spec.objective {
             Objective::FarFromTarget => scene.object(scene.target()).disc().centre,
             Objective::ShortMoves => own.centre,
         };
         Self {
-            wish,
+            spec,
             radius: own.radius,
             origin,
             table: Border::default(),
@@ -119,21 +121,25 @@ impl Candidates {
         }
     }
 
-    /// Places spread evenly over the table, for where no border curve's points will do: a release between obstacles may be
-    /// possible only well inside a free region.
-    pub(super) fn spread(layout: &Layout<'_>, wish: Wish) -> Self {
-        let mut candidates = Self::empty(layout, wish);
+    /// Places spread evenly over the table, for scenes where no point on a border curve will do: a release between
+    /// obstacles may be possible only well inside a free region.
+    pub(super) fn spread(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
+        let mut candidates = Self::empty(layout, spec);
         let top = layout.scene().table().top();
         let inset = Vector2::repeat(candidates.edge());
         scatter::even(top.min() + inset, top.max() - inset).for_each(|at| candidates.add_place(at));
         candidates
     }
 
-    /// The next best place. Whether it is free is for the caller to see.
+    /// The next best place. The caller tests whether it is free.
     ///
     /// # Errors
-    /// [`Stop`] when effort or budget end: many borders may be expanded before the next place comes up.
-    pub(super) fn next(&mut self, layout: &Layout<'_>, meter: &mut Meter<'_>) -> Result<Option<Point2<f64>>, Stop> {
+    /// [`Stop`] when effort or budget end: many borders may be expanded before the next place.
+    pub(super) fn next(
+        &mut self,
+        layout: &Layout<'_>,
+        meter: &mut EffortMeter<'_>,
+    ) -> Result<Option<Point2<f64>>, Stop> {
         while let Some(entry) = self.heap.pop() {
             let before = self.heap.len();
             match entry.kind {
@@ -157,13 +163,13 @@ impl Candidates {
         Ok(None)
     }
 
-    /// True if the object keeps all gaps there.
+    /// True if the object keeps all gaps at `at`.
     pub(super) fn fits(&self, layout: &Layout<'_>, at: Point2<f64>) -> bool {
         let disc = Disc { centre: at, radius: self.radius };
         let table = layout.scene().table();
         // Curves run a whole INSIDE away from the bound: half of it absorbs their rounding.
-        let edge_gap = self.wish.edge_gap + INSIDE / 2.0;
-        let gap = self.wish.gap + INSIDE / 2.0;
+        let edge_gap = self.spec.edge_gap + INSIDE / 2.0;
+        let gap = self.spec.gap + INSIDE / 2.0;
         table.top().inner_gap(&disc) >= edge_gap
             && table.keep_out().iter().all(|area| area.outer_gap(&disc) >= edge_gap)
             && layout.near(at, self.radius + gap).next().is_none()
@@ -171,7 +177,7 @@ impl Candidates {
 
     fn score(&self, at: Point2<f64>) -> f64 {
         let apart = distance(at, self.origin);
-        match self.wish.objective {
+        match self.spec.objective {
             Objective::FarFromTarget => apart,
             Objective::ShortMoves => -apart,
         }
@@ -181,9 +187,9 @@ impl Candidates {
         self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
     }
 
-    /// How far its centre keeps from table edge and keep-outs, m.
+    /// The distance of the object's centre from the table's edge and from keep-outs, m.
     fn edge(&self) -> f64 {
-        self.radius + self.wish.edge_gap + INSIDE
+        self.radius + self.spec.edge_gap + INSIDE
     }
 
     fn add_table(&mut self, layout: &Layout<'_>) {
@@ -195,7 +201,7 @@ impl Candidates {
     fn add_keep_outs(&mut self, layout: &Layout<'_>) {
         let keep = self.edge();
         for (at, area) in layout.scene().table().keep_out().iter().enumerate() {
-            let score = match self.wish.objective {
+            let score = match self.spec.objective {
                 Objective::FarFromTarget => Border::round(area, keep).farthest(self.origin),
                 Objective::ShortMoves => -area.outer_gap(&Disc { centre: self.origin, radius: keep }).max(0.0),
             };
@@ -210,7 +216,7 @@ impl Candidates {
             let mut score = f64::NEG_INFINITY;
             for radius in self.radii(layout, object) {
                 self.span = self.span.max(radius);
-                score = score.max(match self.wish.objective {
+                score = score.max(match self.spec.objective {
                     Objective::FarFromTarget => apart + radius,
                     Objective::ShortMoves => -(apart - radius).abs(),
                 });
@@ -219,14 +225,14 @@ impl Candidates {
         }
     }
 
-    /// Round an obstacle: as near as the gap allows, where it no longer hinders the release, where it no longer hinders a
-    /// grasp of that obstacle.
+    /// The radii of the circles round an obstacle: as near as the gap allows; where it no longer hinders the release;
+    /// where the object no longer hinders a grasp of the obstacle.
     fn radii(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> SmallVec<[f64; 3]> {
         let gripper = layout.scene().gripper();
         let radius = layout.disc(obstacle).radius;
         let clear = gripper.margin() + INSIDE;
         let mut radii: SmallVec<[f64; 3]> = SmallVec::from_buf([
-            self.radius + radius + self.wish.gap + INSIDE,
+            self.radius + radius + self.spec.gap + INSIDE,
             gripper.corner_distance(self.radius) + radius + clear,
             gripper.corner_distance(radius) + self.radius + clear,
         ]);
@@ -234,14 +240,14 @@ impl Candidates {
         radii
     }
 
-    /// The border round an obstacle, and how far it reaches.
+    /// The border round an obstacle, and its largest radius.
     fn round_obstacle(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> (Border, f64) {
         let radii = self.radii(layout, obstacle);
         let reach = radii.iter().copied().fold(0.0, f64::max);
         (Border::rings(layout.disc(obstacle).centre, radii), reach)
     }
 
-    /// Add the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
+    /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
     fn expand(&mut self, layout: &Layout<'_>, border: &Border, centre: Point2<f64>, reach: f64) {
         let mut places: Vec<Point2<f64>> = Vec::new();
         let mut add = |at| places.push(at);
@@ -263,7 +269,8 @@ impl Candidates {
         }
     }
 
-    /// Round a large disc among thousands of crumbs there are millions of places; more than effort can try need no memory.
+    /// Drops the worst places past a limit. Round a large disc among thousands of crumbs there are millions of places,
+    /// more than effort can try.
     fn forget_worst(&mut self) {
         if self.heap.iter().filter(|entry| entry.kind == Kind::Place).count() <= MANY {
             return;
@@ -276,7 +283,7 @@ impl Candidates {
     }
 }
 
-/// More places than these are cut down to half as many, the best.
+/// The most places in the heap. Past that only the best half stays.
 const MANY: usize = 1 << 17;
 
 #[cfg(test)]
@@ -289,8 +296,8 @@ mod tests {
     fn of_places_of_one_score_as_many_stay_as_may() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
-        let wish = Wish { object, gap: 0.0, edge_gap: 0.0, objective };
-        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), wish);
+        let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
+        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), spec);
         let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
         let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
         let many = u32::try_from(MANY).unwrap();

@@ -11,7 +11,7 @@ pub(super) struct Circle {
     pub(super) radius: f64,
 }
 
-/// A stretch of a line x = `at` or y = `at`.
+/// A segment of a line x = `at` or y = `at`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     pub(super) direction: Direction,
@@ -39,13 +39,13 @@ impl Side {
         (self.from..=self.to).contains(&along)
     }
 
-    /// Where it crosses a side of the other direction.
+    /// The point where it crosses a side of the other direction.
     pub(super) fn meet(&self, other: &Self) -> Option<Point2<f64>> {
         (self.direction != other.direction && self.holds(other.at) && other.holds(self.at))
             .then(|| self.point(other.at))
     }
 
-    /// Its ends, and the point in between that is nearest to `point` if that is none of them.
+    /// Its ends, and the foot of the perpendicular from `point` if that lies between them.
     pub(super) fn extremes(&self, point: Point2<f64>) -> impl Iterator<Item = Point2<f64>> + use<> {
         let along = if self.direction == Direction::Vertical { point.y } else { point.x };
         let foot = self.holds(along).then(|| self.point(along));
@@ -55,7 +55,7 @@ impl Side {
 }
 
 impl Circle {
-    /// Where two circles meet; touching ones meet twice in the same point.
+    /// The two points where two circles meet; the same point twice where they touch.
     pub(super) fn meet(&self, other: &Self) -> Option<[Point2<f64>; 2]> {
         let apart = distance(self.centre, other.centre);
         if apart <= 0.0 || apart > self.radius + other.radius || apart < (self.radius - other.radius).abs() {
@@ -69,7 +69,7 @@ impl Circle {
         Some([foot + aside, foot - aside])
     }
 
-    /// Where the circle meets a side.
+    /// The points where the circle meets a side.
     pub(super) fn meet_side(&self, side: &Side) -> impl Iterator<Item = Point2<f64>> + use<> {
         let Point2 { coords: c } = self.centre;
         let (across, along) = match side.direction {

@@ -1,15 +1,16 @@
-//! How much may be tried: counted, not timed, so that the same question always ends at the same point.
+//! Effort: a limit on the places tried. It is counted, not timed, so that the same question always ends at the same
+//! point.
 
 use crate::budget::{Budget, Interrupted};
 
-/// How much more may be tried, in places: about half a microsecond each.
+/// The effort left, in tried places of about half a microsecond each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     left: u32,
 }
 
 impl Effort {
-    /// So many places.
+    /// An effort of `places`.
     pub fn new(places: u32) -> Self {
         Self { left: places }
     }
@@ -19,20 +20,20 @@ impl Effort {
         self.left
     }
 
-    /// Split off at most `places`.
+    /// Splits off at most `places`.
     pub fn split(&mut self, places: u32) -> Self {
         let part = places.min(self.left);
         self.left -= part;
         Self { left: part }
     }
 
-    /// Give back what is left of a part.
+    /// Takes back the rest of a part.
     pub fn join(&mut self, part: Self) {
         self.left += part.left;
     }
 }
 
-/// Why there is no more trying.
+/// Why a search for places stopped early.
 pub(super) enum Stop {
     /// The effort is spent.
     Spent,
@@ -46,23 +47,23 @@ impl From<Interrupted> for Stop {
     }
 }
 
-/// Units of effort between two looks at the budget: some 30 µs.
+/// Units of effort between two looks at the budget, some 30 µs.
 pub(super) const BEAT: usize = 64;
 
-/// Spends effort, and looks at the budget now and then.
-pub(super) struct Meter<'e> {
+/// Spends effort, and looks at the budget once in [`BEAT`] units.
+pub(super) struct EffortMeter<'e> {
     effort: &'e mut Effort,
     budget: &'e Budget<'e>,
     /// Effort since the last look at the budget.
     unwatched: usize,
 }
 
-impl<'e> Meter<'e> {
+impl<'e> EffortMeter<'e> {
     pub(super) fn new(effort: &'e mut Effort, budget: &'e Budget<'e>) -> Self {
         Self { effort, budget, unwatched: 0 }
     }
 
-    /// Look at the budget now.
+    /// Looks at the budget now.
     pub(super) fn look(&mut self) -> Result<(), Stop> {
         self.unwatched = 0;
         Ok(self.budget.check()?)

@@ -1,4 +1,4 @@
-//! Where everything stands after some moves.
+//! The layout: where each object stands after some moves.
 
 use nalgebra::Point2;
 
@@ -33,7 +33,7 @@ impl<'a> Layout<'a> {
         self.place[object.get()].map_or(disc, |centre| disc.at(centre))
     }
 
-    /// Put an object somewhere; returns the place that it had been moved to before.
+    /// Puts an object somewhere. Returns the place to which it was moved before, if it was.
     pub fn put(&mut self, object: ObjectIndex, centre: Point2<f64>) -> Option<Point2<f64>> {
         let before = self.place[object.get()].replace(centre);
         if before.is_none() {
@@ -42,7 +42,7 @@ impl<'a> Layout<'a> {
         before
     }
 
-    /// Undo the last [`Layout::put`] of this object.
+    /// Undoes the last [`Layout::put`] of this object.
     pub(super) fn take_back(&mut self, object: ObjectIndex, before: Option<Point2<f64>>) {
         self.place[object.get()] = before;
         if before.is_none() {
@@ -58,7 +58,7 @@ impl<'a> Layout<'a> {
         self.lifted[object.get()]
     }
 
-    /// What stands nearer than `reach` (edge to point, m) to `centre`, in a fixed order.
+    /// The objects nearer than `reach` (edge to point, m) to `centre`, in a fixed order.
     pub(super) fn near(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
         let in_place =
             self.scene.index().within(centre, reach).filter(|(object, _)| self.place[object.get()].is_none());
@@ -70,8 +70,8 @@ impl<'a> Layout<'a> {
         in_place.chain(moved).filter(|(object, _)| !self.is_lifted(*object))
     }
 
-    /// The yaws blocked for a grasp or release of `disc`, which is `object` somewhere, when fingers stay the margin and
-    /// `extra` (m) away from all else.
+    /// The blocked yaws of a grasp or release of `object` at `disc`. Fingers keep the margin and `extra` (m) from all
+    /// other objects.
     pub fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
         let gripper = self.scene.gripper();
         let others = self.near(disc.centre, reach(gripper, disc) + extra).filter(|(other, _)| *other != object);
@@ -79,25 +79,24 @@ impl<'a> Layout<'a> {
         ArcSet::union(gripper.period(), &shadows)
     }
 
-    /// How an object can be grasped where it stands.
+    /// The widest grasp of an object where it stands.
     pub fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
         widest_grasp(self.scene.gripper(), &self.blocked(object, &self.disc(object), 0.0))
     }
 
-    /// Least distance from the edge of `disc`, which is `object` somewhere, to another object, m. Infinite where there is
-    /// none.
+    /// The least distance from `object` at `disc` to another object, edge to edge, m; infinite if there is none.
     pub fn gap(&self, object: ObjectIndex, disc: &Disc) -> f64 {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
         others.map(|other| disc.gap(&self.disc(other))).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// How far from its centre fingers round `disc` must be clear of others, m.
+/// The distance from the centre of `disc` within which other objects can block its grasp, m.
 fn reach(gripper: &Gripper, disc: &Disc) -> f64 {
     gripper.corner_distance(disc.radius) + gripper.margin()
 }
 
-/// How an object can be grasped as the table stands.
+/// The widest grasp of an object in the scene at the start.
 pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
     let (gripper, disc) = (scene.gripper(), scene.object(object).disc());
     let others = scene.index().within(disc.centre, reach(gripper, &disc)).filter(|(other, _)| *other != object);

@@ -1,7 +1,8 @@
 //! Where relocated objects go.
 //!
-//! A place must be on the table, outside keep-outs, apart from every other object, with a free release yaw, and must leave
-//! every grasp still to come a free yaw. Candidates come from the continuum: where border curves of the free space meet.
+//! A place must be on the table, outside keep-outs, apart from every other object, with a free release yaw, and must
+//! leave every grasp still to come a free yaw. Candidates come from the continuum: where border curves of the free
+//! space meet.
 
 mod arrange;
 mod borders;
@@ -31,7 +32,7 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// The one of the two that this is not.
+    /// The other objective.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -44,7 +45,7 @@ impl Objective {
 /// One pick-and-place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relocation {
-    /// What is moved; never the target, never a fixed object.
+    /// The object that is moved; never the target, never a fixed object.
     pub object: ObjectIndex,
     /// Its centre before, m.
     pub from: Point2<f64>,
@@ -58,8 +59,8 @@ pub struct Relocation {
     pub gap: f64,
 }
 
-/// How far inside every bound the planner stays, m: a thousand times the checker's tolerance.
+/// The planner's distance from every bound, m: a thousand times the checker's tolerance.
 pub const INSIDE: f64 = 1e-6;
 
-/// What a place keeps from others, beyond the margin, where there is room for it, m: an arm can't set dishes in contact.
+/// The preferred gap between a place and other objects, beyond the margin, m: an arm can't set down dishes in contact.
 const PREFERRED_GAP: f64 = 5e-3;

@@ -1,39 +1,39 @@
-//! A layout whose questions cost effort: can this be grasped, may that stand here?
+//! A layout with a meter: each test of a grasp or a place costs effort.
 
 use nalgebra::Point2;
 
 use super::INSIDE;
 use super::candidates::Candidates;
-use super::effort::{BEAT, Meter, Stop};
+use super::effort::{BEAT, EffortMeter, Stop};
 use super::layout::Layout;
 use crate::geometry::{Grasp, widest_grasp};
 use crate::scene::{Disc, ObjectIndex, distance};
 
-/// What looking for a free yaw costs, in tried places.
+/// The effort of one search for a free yaw, in tried places.
 const GRASP_EFFORT: usize = 4;
 
-/// How often the way back is halved: to a hundredth of its length.
+/// Bisection steps of [`Tabletop::pull_back`]: to under 1 % of the move.
 const HALVINGS: usize = 7;
 
-/// A layout and what may still be tried on it.
+/// A layout with the effort left for it.
 pub(super) struct Tabletop<'a, 'e> {
     pub(super) layout: Layout<'a>,
-    meter: Meter<'e>,
+    meter: EffortMeter<'e>,
 }
 
 impl<'a, 'e> Tabletop<'a, 'e> {
-    pub(super) fn new(layout: Layout<'a>, meter: Meter<'e>) -> Self {
+    pub(super) fn new(layout: Layout<'a>, meter: EffortMeter<'e>) -> Self {
         Self { layout, meter }
     }
 
-    /// How an object can be grasped where it stands.
+    /// The widest grasp of an object where it stands.
     pub(super) fn grasp(&mut self, object: ObjectIndex) -> Result<Option<Grasp>, Stop> {
         self.meter.spend(GRASP_EFFORT)?;
         Ok(self.layout.grasp(object))
     }
 
-    /// The next best place where the lifted object fits and can be released, and which leaves every grasp still to come
-    /// possible; with its release.
+    /// The next best place, with its release: the lifted object fits there and can be released, and all later grasps
+    /// stay possible.
     pub(super) fn next_place(
         &mut self,
         candidates: &mut Candidates,
@@ -51,8 +51,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Ok(None)
     }
 
-    /// A place as good as `place` that lies nearer to where the lifted object stood: halving finds where the way there
-    /// stops being free.
+    /// Moves `place` back towards the old place of the lifted object, by bisection between a free and a blocked point.
     pub(super) fn pull_back(
         &mut self,
         candidates: &Candidates,
@@ -71,7 +70,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Ok(free)
     }
 
-    /// How the lifted object can be released there, if it fits and every grasp still to come stays possible.
+    /// The widest release of the lifted object at `at`, if it fits there and all later grasps stay possible.
     fn release(
         &mut self,
         candidates: &Candidates,
@@ -93,7 +92,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Ok(if release.is_some() && self.leaves_the_rest_free(object, &disc, rest)? { release } else { None })
     }
 
-    /// With the object there, can the rest still be lifted one after the other, and the target grasped?
+    /// True if, with the object at `disc`, the rest can still be lifted one after the other and the target grasped.
     fn leaves_the_rest_free(&mut self, object: ObjectIndex, disc: &Disc, rest: &[ObjectIndex]) -> Result<bool, Stop> {
         let target = self.layout.scene().target();
         let gripper = self.layout.scene().gripper();
@@ -120,7 +119,8 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         free
     }
 
-    /// Lift whatever can be lifted. True if that is all of them, and the target can be grasped then.
+    /// Lifts the objects of `rest` in any order that works. True if all can be lifted and the target can be grasped
+    /// then.
     fn lift_all(&mut self, rest: &[ObjectIndex], lifted: &mut Vec<ObjectIndex>) -> Result<bool, Stop> {
         let mut standing = rest.to_vec();
         while !standing.is_empty() {

@@ -170,7 +170,7 @@ mod tests {
         };
         // As if one landmark were missing without which the bound can't be shown.
         let landmarks = proof.landmarks[..1].to_vec();
-        let known = LeastSet { bound: 2, shown: 1, landmarks: landmarks.clone(), ..LeastSet::default() };
+        let known = LeastSet { bound: 2, proven: 1, landmarks: landmarks.clone(), ..LeastSet::default() };
         let verdict = served(LowerBound::from(&known)).unwrap();
         let Verdict::Relocate(plan) = &verdict else { panic!("{verdict:?}") };
         assert_eq!((plan.cost(), plan.optimal()), (2, false));

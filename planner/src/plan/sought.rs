@@ -40,7 +40,7 @@ pub enum Sought {
 
 impl From<&LeastSet> for LowerBound {
     fn from(known: &LeastSet) -> Self {
-        Self { cost: known.shown, landmarks: known.landmarks.clone() }
+        Self { cost: known.proven, landmarks: known.landmarks.clone() }
     }
 }
 

@@ -6,7 +6,7 @@ use super::confirm::{PlanError, confirm};
 use super::verdicts::{graspable_now, greatest_lock};
 use crate::budget::Budget;
 use crate::geometry::shadow;
-use crate::knowledge::{Closure, KnowledgeBase, NoBase, close, complete, swept_finger_options};
+use crate::knowledge::{Derivable, KnowledgeBase, NoBase, complete, derivable, swept_finger_options};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Outcome, Restriction, least};
 
@@ -43,21 +43,21 @@ pub struct SurveyEntry {
 pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
     let movable = scene.indices().filter(|&object| !scene.object(object).fixed());
     let known =
-        complete(scene, swept_finger_options, budget).and_then(|base| Ok((close(&base, |_| false, budget)?, base)));
-    let (closure, base) = match known {
+        complete(scene, swept_finger_options, budget).and_then(|base| Ok((derivable(&base, |_| false, budget)?, base)));
+    let (derivable, base) = match known {
         Ok(known) => known,
         Err(NoBase::Interrupted) => return Ok(movable.map(timed_out).collect()),
         Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
     };
     let checker = Checker::new(scene);
-    let mut surveyor = Surveyor { scene, base: &base, closure: &closure, checker, locked: None };
+    let mut surveyor = Surveyor { scene, base: &base, derivable: &derivable, checker, locked: None };
     movable.map(|object| surveyor.entry(object, budget)).collect()
 }
 
 struct Surveyor<'a> {
     scene: &'a Scene,
     base: &'a KnowledgeBase,
-    closure: &'a Closure,
+    derivable: &'a Derivable,
     checker: Checker<'a>,
     /// What the checker says of the greatest lock, which is one and the same for every object in it.
     locked: Option<SurveyVerdict>,
@@ -69,7 +69,7 @@ impl Surveyor<'_> {
         if budget.check().is_err() {
             return Ok(timed_out(object));
         }
-        if !self.closure.derives(object) {
+        if !self.derivable.derives(object) {
             return self.deadlock(&scene, budget);
         }
         let verdict = if self.base.options(object).any(<[_]>::is_empty) {
@@ -106,7 +106,7 @@ impl Surveyor<'_> {
         let verdict = match self.locked {
             Some(verdict) => verdict,
             None => {
-                let lock = greatest_lock(scene, self.base, self.closure, budget);
+                let lock = greatest_lock(scene, self.base, self.derivable, budget);
                 let verdict =
                     lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
                 match confirm(&mut self.checker, scene, verdict, budget)? {

@@ -6,7 +6,7 @@ use super::confirm::PlanError;
 use crate::budget::{Budget, Interrupted};
 use crate::geometry::Shadow;
 use crate::knowledge::{
-    Closure, KnowledgeBase, Lock, NoBase, close, completed, fixed_blockers, lock, swept_finger_options,
+    Derivable, KnowledgeBase, Locks, NoBase, completed, derivable, fixed_blockers, locks, swept_finger_options,
 };
 use crate::placement::grasp_in_place;
 use crate::scene::Scene;
@@ -31,18 +31,18 @@ pub(super) fn graspable_now(scene: &Scene, model: Shadow) -> Result<Verdict, Pla
 /// a lock, but not the greatest.
 pub(super) fn prove_deadlock(scene: &Scene, relevant: &KnowledgeBase, budget: &Budget<'_>) -> Result<Deadlock, NoBase> {
     let base = completed(scene, relevant, swept_finger_options, budget)?;
-    let closure = close(&base, |_| false, budget)?;
-    Ok(greatest_lock(scene, &base, &closure, budget)?)
+    let derivable = derivable(&base, |_| false, budget)?;
+    Ok(greatest_lock(scene, &base, &derivable, budget)?)
 }
 
-/// Why the target, which does not follow, does not: from the complete base and its closure.
+/// Why the target, which does not follow, does not: from the complete base and its derivable objects.
 pub(super) fn greatest_lock(
     scene: &Scene,
     base: &KnowledgeBase,
-    closure: &Closure,
+    derivable: &Derivable,
     budget: &Budget<'_>,
 ) -> Result<Deadlock, Interrupted> {
-    let Lock { mut blocked, core } = lock(base, closure, scene.target(), budget)?;
+    let Locks { mut blocked, core } = locks(base, derivable, scene.target(), budget)?;
     blocked.extend(fixed_blockers(scene, &blocked, budget)?);
     blocked.sort_unstable();
     Ok(Deadlock { blocked, core })

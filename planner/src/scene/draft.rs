@@ -1,6 +1,6 @@
-//! A scene as somebody describes it, before it is checked.
+//! The draft of a scene: unchecked input.
 
-/// An unchecked scene. `None` means that the part was absent or unreadable, and that whoever read it has said so.
+/// An unchecked scene. `None` means that the part was absent or unreadable; the reader of the input reports that.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SceneDraft {
     /// The table.
@@ -9,7 +9,7 @@ pub struct SceneDraft {
     pub gripper: GripperDraft,
     /// The objects, in the caller's order; unreadable ones keep their place.
     pub objects: Vec<ObjectDraft>,
-    /// The id of the object that is wanted.
+    /// The id of the object to be grasped.
     pub target: Option<String>,
 }
 

@@ -1,10 +1,10 @@
-//! What can be wrong with a scene, as data: the place and the kind.
+//! Faults and warnings of a scene, as data: the place and the kind.
 
 use core::fmt;
 
 use super::Rectangle;
 
-/// Where in the scene.
+/// A place in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The list of objects as a whole.
@@ -25,8 +25,8 @@ pub enum Place {
     Target,
 }
 
-/// What is wrong there, or worth a warning: an overlap within the tolerance, fingers that overlap, a disc that hangs over the
-/// table's edge, a number that looks like a slip of its unit.
+/// The kind of a fault or warning. Warnings are: an overlap within the tolerance, fingers that overlap, a disc that
+/// hangs over the table's edge, a number that looks like a slip of its unit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Flaw {
     /// A number outside its range, bounds included.
@@ -107,7 +107,7 @@ pub enum Flaw {
         other: String,
         /// How deep, m.
         depth: f64,
-        /// What counts as perception noise, m.
+        /// The deepest overlap that counts as perception noise, m.
         tolerance: f64,
         /// The likely cause.
         likely: Likely,
@@ -139,12 +139,12 @@ pub enum Flaw {
         /// k.
         fingers: u32,
     },
-    /// A length that no other length of the scene goes with.
+    /// A length out of proportion to the others of the scene.
     #[error("{length} m is out of all proportion to {yardstick}: millimetres instead of metres?")]
     OutOfProportion {
         /// The length, m.
         length: f64,
-        /// What it was compared with.
+        /// The length that it was compared with.
         yardstick: Yardstick,
     },
     /// Neighbouring fingers overlap at the edge of the object.
@@ -207,13 +207,13 @@ impl fmt::Display for Yardstick {
 /// A flaw and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Where.
+    /// The place.
     pub place: Place,
-    /// What.
+    /// The flaw.
     pub flaw: Flaw,
 }
 
-/// A list of findings that stops growing at [`MAX_FINDINGS`]: past that nobody reads on.
+/// A list of findings with at most [`MAX_FINDINGS`] entries: nobody reads more.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     list: Vec<Finding>,

@@ -12,8 +12,8 @@ pub struct Gripper {
     pub(super) yaw_tolerance: f64,
 }
 
-/// A free interval of yaws counts only when it is at least this wide, rad: far above the rounding of an interval's end,
-/// far below what any arm can resolve.
+/// The least width of a free interval of yaws, rad: far above the rounding of an interval's end, far below the
+/// resolution of any arm.
 pub const MIN_FREE_WIDTH: f64 = 1e-9;
 
 impl Gripper {
@@ -37,7 +37,7 @@ impl Gripper {
         self.margin
     }
 
-    /// How far the real yaw may be off the planned one, rad.
+    /// The largest error between the planned and the real yaw, rad.
     pub fn yaw_tolerance(&self) -> f64 {
         self.yaw_tolerance
     }
@@ -47,12 +47,12 @@ impl Gripper {
         TAU / f64::from(self.fingers)
     }
 
-    /// The least width of a free interval that counts, rad.
+    /// The least width of a free interval, rad: the band of the yaw tolerance.
     pub fn min_free_width(&self) -> f64 {
         (2.0 * self.yaw_tolerance).max(MIN_FREE_WIDTH)
     }
 
-    /// How far from the centre of an object of radius `radius` the outer corners of the open fingers are, m.
+    /// The distance of the open fingers' outer corners from the centre of an object of radius `radius`, m.
     pub fn corner_distance(&self, radius: f64) -> f64 {
         let (outer, half) = (radius + self.clearance, self.finger_width / 2.0);
         (outer * outer + half * half).sqrt()

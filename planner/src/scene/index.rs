@@ -1,5 +1,5 @@
-//! Which discs are near: a spatial index over the bounding boxes of discs, so that one large disc among many small ones
-//! costs only those that it touches.
+//! A spatial index of discs: an R-tree over their bounding boxes. One large disc among many small ones slows down only
+//! the queries near it.
 
 use nalgebra::Point2;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -7,10 +7,10 @@ use rstar::{AABB, RTree};
 
 use super::object::{Disc, ObjectIndex, distance};
 
-/// The disc lies beside its bounds: one that is near is read where it was found.
+/// An entry keeps the disc beside its bounds, so that a query needs no second look-up.
 type Entry = GeomWithData<Rectangle<[f64; 2]>, (ObjectIndex, Disc)>;
 
-/// The discs of a scene at their first places.
+/// The index of a scene's discs at the start.
 #[derive(Debug, Clone)]
 pub struct DiscIndex {
     tree: RTree<Entry>,

@@ -1,7 +1,8 @@
-//! The checked scene: table, gripper, objects, target. The one vocabulary that every other room shares.
+//! The checked scene: table, gripper, objects, target. All other rooms use these types.
 //!
-//! A [`SceneDraft`] is what somebody said; a [`Scene`] is what holds: every number in its range, ids unique, centres on the
-//! table, overlaps no deeper than perception noise, a movable target. There is no other way to make one.
+//! A [`SceneDraft`] is unchecked input. A [`Scene`] is valid: every number is in its range, ids are unique, centres are
+//! on the table, overlaps are no deeper than perception noise, and the target is movable. [`Scene::new`] is the only
+//! way to make one.
 
 mod draft;
 mod fault;
@@ -28,14 +29,14 @@ pub use limits::{
 pub use object::{Disc, Object, ObjectIndex, distance};
 pub use table::{Rectangle, Table};
 
-/// A scene that holds. Cheap to clone.
+/// A valid scene. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Scene {
     parts: Arc<Parts>,
     target: ObjectIndex,
 }
 
-/// All of a scene but its target.
+/// The scene without its target.
 #[derive(Debug)]
 struct Parts {
     table: Table,
@@ -45,11 +46,11 @@ struct Parts {
 }
 
 impl Scene {
-    /// Check a draft. On success also what is worth a warning.
+    /// Checks a draft. On success the second value lists the warnings.
     ///
     /// # Errors
-    /// Every fault of the draft. The list is empty where the only faults are parts that were absent or unreadable: those
-    /// have been told by whoever read the draft.
+    /// Every fault of the draft. The list is empty where the only faults are absent or unreadable parts, which the reader of
+    /// the draft reports.
     pub fn new(draft: SceneDraft, limits: &SceneLimits) -> Result<(Self, Vec<Finding>), Vec<Finding>> {
         validate::validate(draft, limits)
     }
@@ -79,7 +80,7 @@ impl Scene {
         (0..self.parts.objects.len()).map(ObjectIndex::new)
     }
 
-    /// The object that is wanted; never a fixed one.
+    /// The object to be grasped; never a fixed one.
     pub fn target(&self) -> ObjectIndex {
         self.target
     }
@@ -94,7 +95,7 @@ impl Scene {
         self.parts.objects.iter().position(|object| object.id == id).map(ObjectIndex::new)
     }
 
-    /// The objects at their first places, by nearness.
+    /// The spatial index of the objects at the start.
     pub fn index(&self) -> &DiscIndex {
         &self.parts.index
     }

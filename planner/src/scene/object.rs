@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-/// The place of an object in its scene's list: the only way in which the core names an object.
+/// The position of an object in its scene's list. The planner names objects only by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ObjectIndex(u32);
 

@@ -1,4 +1,4 @@
-//! What objects have to do with each other, with the table's edge and with the fingers.
+//! Checks of objects against each other, the table's edge and the fingers.
 
 use std::collections::HashMap;
 
@@ -6,16 +6,16 @@ use super::fault::{Findings, Flaw, Likely, Place};
 use super::slips;
 use super::{Disc, DiscIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
 
-/// Depths that differ by no more are the same, m: overlaps are told to the micrometre, and this is half of one. So discs that
-/// touch, and those that overlap by just the tolerance, count as what their decimals say; the doubles nearest to these are off
-/// by 3e-11 m at the most (four coordinates at 100 km).
+/// Depths that differ by no more count as equal, m: half a micrometre, since overlaps are reported to the micrometre.
+/// So discs that touch, or overlap by exactly the tolerance in decimals, are judged as written. Rounding to doubles
+/// changes a depth by at most 3e-11 m (four coordinates at 100 km).
 const TOUCHING: f64 = 5e-7;
 
-/// A disc may hang over the table's edge by this share of its radius: perception errs, and many a plate stands like that. With
-/// more it is likelier that its place or its size is wrong.
+/// A disc may hang over the table's edge by this share of its radius without a warning: perception errs, and plates do
+/// stand like that. Past it, a wrong position or size is likelier.
 const OVERHANG: f64 = 1.0 / 3.0;
 
-/// Discs that hang over the table's edge; their centres are on it.
+/// Warns of discs that hang over the table's edge; their centres are on it.
 pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findings) {
     for (at, Object { disc, .. }) in objects.iter().enumerate() {
         let (overhang, radius) = (-top.inner_gap(disc), disc.radius);
@@ -25,9 +25,9 @@ pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findi
     }
 }
 
-/// Every overlapping pair once, at the later of the two: a fault past the tolerance, a warning up to it. Two fixed objects
-/// may overlap as they like: several discs make up one thing. A movable disc that overlaps more others than a grasp may have
-/// neighbours is refused for that, which bounds the work.
+/// Reports every overlapping pair once, at the later object: as a fault past the tolerance, as a warning up to it.
+/// Fixed objects may overlap each other, since several discs may make up one thing. A movable disc that overlaps more
+/// objects than a grasp may have neighbours is refused for that, which bounds the work.
 pub(super) fn overlaps(
     objects: &[Object],
     index: &DiscIndex,
@@ -36,7 +36,7 @@ pub(super) fn overlaps(
     warnings: &mut Findings,
 ) {
     let max = limits.max_neighbours;
-    // Per fixed object the movable ones before it that it overlaps.
+    // Per fixed object the earlier movable objects that it overlaps.
     let mut earlier: HashMap<ObjectIndex, Vec<ObjectIndex>> = HashMap::new();
     for (at, object) in objects.iter().enumerate() {
         let this = ObjectIndex::new(at);
@@ -64,7 +64,7 @@ pub(super) fn overlaps(
     }
 }
 
-/// The overlap of the object at `at` with an earlier one.
+/// Reports the overlap of the object at `at` with an earlier one.
 fn overlap(
     at: usize,
     earlier: &Object,
@@ -84,7 +84,7 @@ fn overlap(
     list.add(Place::WholeObject(at), Flaw::Overlap { other: earlier.id.clone(), depth, tolerance, likely });
 }
 
-/// Grasps with too many obstacles in reach, and fingers that overlap each other.
+/// Reports grasps with too many obstacles in reach, and warns of fingers that overlap each other.
 pub(super) fn reach(
     gripper: &Gripper,
     objects: &[Object],

@@ -1,8 +1,8 @@
-//! Scenes for the tests inside of the rooms.
+//! A builder of scenes for unit tests.
 
 use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
 
-/// A scene in the making. Unless told otherwise: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
+/// The builder. By default: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
 pub(crate) struct TestScene(SceneDraft);
 
 fn rectangle([x_min, y_min, x_max, y_max]: [f64; 4]) -> RectangleDraft {
@@ -52,7 +52,8 @@ impl TestScene {
         self
     }
 
-    /// Those of the discs (x, y, radius) that don't overlap an earlier one, as d0, d1 and so on by their places in the list.
+    /// Adds the discs (x, y, radius) that don't overlap an earlier one, as d0, d1 and so on by their positions in the
+    /// list.
     pub(crate) fn scatter(mut self, discs: &[(f64, f64, f64)]) -> Self {
         for (at, &(x, y, radius)) in discs.iter().enumerate() {
             let apart = |other: &ObjectDraft| {

@@ -1,8 +1,8 @@
-//! Numbers that look like a slip of their unit: degrees where radians are meant, millimetres where metres are. Such a scene
-//! holds, but mostly its answer is a deadlock that the real table has not.
+//! Warnings of slips of unit: degrees instead of radians, millimetres instead of metres. Such a scene is valid, but its
+//! answer is mostly a deadlock that does not exist on the real table.
 //!
-//! Between millimetres and metres lies a factor of 1000. Each threshold lies between what real scenes have and what a slip
-//! makes of them, nearer to the slip: a warning that is wrong is worse than one that is missing.
+//! Millimetres and metres differ by a factor of 1000. Each threshold lies between real scenes and slips, nearer to the
+//! slips: a wrong warning is worse than a missing one.
 
 use core::f64::consts::PI;
 
@@ -11,34 +11,35 @@ use nalgebra::Point2;
 use super::fault::{Findings, Flaw, Likely, Place, Yardstick};
 use super::{Disc, Gripper, Object, Rectangle};
 
-/// A length of more than so many largest radii, and ...
+/// The threshold of a length in largest radii, if it is also at least [`LONG`].
 const LONG_TO_RADIUS: f64 = 3.0;
-/// ... as long as this, m: no gripper has fingers or errors of half a metre for things so much smaller.
+/// See [`LONG_TO_RADIUS`], m: no gripper has fingers or errors of half a metre for things so much smaller.
 const LONG: f64 = 0.5;
-/// A margin of more than so many largest radii, whatever its length. Margins cover errors of perception and robot, some
-/// millimetres; with errors beyond the objects' size nobody grasps them.
+/// The threshold of a margin in largest radii. Margins cover errors of perception and robot, some millimetres; with
+/// errors beyond the objects' size no grasp succeeds.
 const MARGIN_TO_RADIUS: f64 = 10.0;
-/// A margin of more than this share of the table's shorter side.
+/// The threshold of a margin as a share of the table's shorter side.
 const MARGIN_TO_TABLE: f64 = 0.5;
-/// A clearance or finger width of more than so many largest radii, whatever its length: a gripper with 60 mm of clearance may
-/// pick up pills of 4 mm, which is 15 times.
+/// The threshold of a clearance or finger width in largest radii. A gripper with 60 mm of clearance may pick up pills
+/// of 4 mm, which is 15 times.
 const FINGER_TO_RADIUS: f64 = 50.0;
-/// A clearance or finger width of more than so many longer sides of the table: a gripper may be larger than a tray.
+/// The threshold of a clearance or finger width in longer sides of the table: a gripper may be larger than a tray.
 const FINGER_TO_TABLE: f64 = 3.0;
-/// A clearance or finger width of less than this share of the smallest radius, where ...
+/// The lower threshold of a clearance or finger width in smallest radii, if that radius is at least [`HUGE_RADIUS`].
 const FINGER_IN_RADIUS: f64 = 1.0 / 30.0;
-/// ... that radius is so large, m. Thin fingers for large platters are not rare, but no gripper spans discs two metres wide.
+/// See [`FINGER_IN_RADIUS`], m. Thin fingers for large platters are not rare, but no gripper spans discs two metres
+/// wide.
 const HUGE_RADIUS: f64 = 1.0;
-/// A table whose shorter side has more than so many largest radii, and ...
+/// The threshold of the table's shorter side in largest radii, if it is also at least [`HUGE_TABLE`].
 const TABLE_TO_RADIUS: f64 = 1000.0;
-/// ... is so long, m. No robot reaches over that.
+/// See [`TABLE_TO_RADIUS`], m: no robot reaches over that.
 const HUGE_TABLE: f64 = 100.0;
-/// A centre further from the table than so many of its longer sides.
+/// The distance of a centre from the table, in longer sides of the table, from which on the frame or the unit is wrong.
 const FAR_OFF: f64 = 10.0;
-/// An overlap as deep as this, m: few things on a table are as wide.
+/// The depth from which on an overlap may be a slip of unit, m: few things on a table are as wide.
 const HUGE_OVERLAP: f64 = 1.0;
 
-/// Warn of each.
+/// Warns of each slip.
 pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warnings: &mut Findings) {
     let (tolerance, fingers) = (gripper.yaw_tolerance, gripper.fingers);
     if tolerance >= PI / f64::from(fingers) {
@@ -58,7 +59,7 @@ pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warni
     }
 }
 
-/// What lengths are compared with.
+/// The lengths of a scene with which others are compared.
 struct Scale {
     sides: (f64, f64),
     smallest: f64,
@@ -80,12 +81,12 @@ impl Scale {
         self.sides.0.max(self.sides.1)
     }
 
-    /// What a margin is too long for.
+    /// The length for which a margin is too long, if any.
     fn margin(&self, margin: f64) -> Option<Yardstick> {
         self.too_long(margin, MARGIN_TO_RADIUS, MARGIN_TO_TABLE * self.shorter())
     }
 
-    /// What a clearance or finger width is too long or too short for.
+    /// The length for which a clearance or finger width is too long or too short, if any.
     fn finger(&self, length: f64) -> Option<Yardstick> {
         let too_short = self.smallest >= HUGE_RADIUS && length < FINGER_IN_RADIUS * self.smallest;
         let too_long = self.too_long(length, FINGER_TO_RADIUS, FINGER_TO_TABLE * self.longer());
@@ -100,21 +101,21 @@ impl Scale {
         }
     }
 
-    /// What the table is too large for.
+    /// The length for which the table is too large, if any.
     fn table(&self) -> Option<Yardstick> {
         let too_large = self.shorter() >= HUGE_TABLE && self.shorter() > TABLE_TO_RADIUS * self.largest;
         too_large.then_some(Yardstick::LargestRadius(self.largest))
     }
 }
 
-/// Why a centre may lie beside the table.
+/// The likely cause of a centre beside the table.
 pub(super) fn off_table(top: Rectangle, centre: Point2<f64>) -> Likely {
     let point = Disc { centre, radius: 0.0 };
     let (x, y) = top.sides();
     if top.outer_gap(&point) > FAR_OFF * x.max(y) { Likely::FrameOrUnit } else { Likely::Open }
 }
 
-/// Why two discs may overlap by so much (m), past the tolerance.
+/// The likely cause of an overlap past the tolerance (`depth` in m).
 pub(super) fn overlap(one: &Disc, other: &Disc, depth: f64) -> Likely {
     if depth >= HUGE_OVERLAP {
         Likely::UnitOrSeenTwice

@@ -1,4 +1,4 @@
-//! The table and the parts of it where nothing may be placed.
+//! The table and its keep-outs.
 
 use core::fmt;
 

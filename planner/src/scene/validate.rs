@@ -1,4 +1,4 @@
-//! From a draft to a scene, or to the list of all that is wrong with it.
+//! Validation: from a draft to a scene, or to the list of its faults.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
     let index = DiscIndex::new(objects.iter().map(Object::disc));
     if let (Some(table), Some(gripper)) = (&table, &gripper) {
-        // Before all that such a slip brings with it.
+        // Slips first, before the warnings that follow from them.
         slips::slips(table.top, gripper, &objects, &mut warnings);
         overhangs(table.top, &objects, &mut warnings);
     }
@@ -55,7 +55,7 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     }
 }
 
-/// The value if it is there and in its range.
+/// The value, if it is present and in its range.
 fn ranged(value: Option<f64>, (min, max): (f64, f64), place: Place, faults: &mut Findings) -> Option<f64> {
     let value = value?;
     if (min..=max).contains(&value) {
@@ -160,13 +160,13 @@ fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Fi
 }
 
 fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults: &mut Findings) -> Option<ObjectIndex> {
-    // An object whose id could not be read may be the one that is meant.
+    // The target may be an object whose id could not be read.
     let unreadable = objects.iter().any(|object| object.id.is_none());
     match ids.get(id) {
         Some(&at) if objects[at].fixed => faults.add(Place::Target, Flaw::FixedTarget(id.to_owned())),
         Some(&at) => return Some(ObjectIndex::new(at)),
         None if !unreadable => {
-            // What can be no id is not repeated.
+            // A string too long to be an id is not repeated.
             let length = id.chars().count();
             let flaw = match length > MAX_ID_LENGTH {
                 true => Flaw::IdLength { length, max: MAX_ID_LENGTH },

@@ -1,7 +1,7 @@
-//! Other sets that derive the target, in order of size.
+//! The next best sets that derive the target, in order of size, by Murty's partition (1968).
 //!
-//! Murty's partition: the sets other than S fall into disjoint classes "holds s₁ … sᵢ₋₁ and not sᵢ", each a restricted
-//! question of its own.
+//! The sets other than S fall into disjoint classes: "holds s₁ … sᵢ₋₁ but not sᵢ" for each i. Each class is a
+//! restricted question.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -9,35 +9,36 @@ use std::collections::BinaryHeap;
 use super::least::least;
 use super::outcome::{Derivation, Outcome, Restriction};
 use crate::budget::{Budget, Interrupted};
-use crate::knowledge::{KnowledgeBase, close};
+use crate::knowledge::{KnowledgeBase, derivable};
 use crate::scene::ObjectIndex;
 
-/// Inclusion-minimal derivations in order of size, the first of them given.
+/// Enumerates inclusion-minimal derivations in order of size.
 pub struct Alternatives<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
-    /// By size, then by when they were found.
+    /// Positions in `found`, by size, then by age.
     open: BinaryHeap<Reverse<(usize, usize)>>,
     found: Vec<(Restriction, Derivation)>,
-    /// The class of the set last given out, as far as it is not partitioned yet.
+    /// The class of the last set returned, as far as it is not partitioned yet.
     class: Option<Class>,
 }
 
-/// Sets other than one that was given out: those that lack one of its objects, and hold all that come before it.
+/// The class of a set that was returned, under partition.
 struct Class {
     restriction: Restriction,
-    /// The objects that are still to be held, the next one last.
+    /// The objects of the set that are still to be excluded, the next one last.
     rest: Vec<ObjectIndex>,
 }
 
 impl<'a> Alternatives<'a> {
-    /// Starts with a least derivation of the target.
+    /// `first` is a least derivation of the target, and is returned first.
     pub fn new(base: &'a KnowledgeBase, target: ObjectIndex, first: Derivation) -> Self {
         let open = BinaryHeap::from([Reverse((first.order.len(), 0))]);
         Self { base, target, open, found: vec![(Restriction::default(), first)], class: None }
     }
 
-    /// The next one, no smaller than any before. When the budget has ended, a later call goes on where this one was.
+    /// The next derivation, no shorter than any before. After an interruption the next call goes on where this one
+    /// stopped.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
@@ -77,11 +78,11 @@ impl<'a> Alternatives<'a> {
         Ok(())
     }
 
-    /// A required object that nothing in the set makes graspable can't be moved: such a set is none.
+    /// True if every object of the set is derived within it. A required object may not be: then the set is no solution.
     fn holds(&self, derivation: &Derivation, budget: &Budget<'_>) -> Result<bool, Interrupted> {
         let mut moved = vec![false; self.base.len()];
         derivation.order.iter().for_each(|object| moved[object.get()] = true);
-        let closure = close(self.base, |object| !moved[object.get()], budget)?;
-        Ok(derivation.order.iter().all(|&object| closure.derives(object)))
+        let derivable = derivable(self.base, |object| !moved[object.get()], budget)?;
+        Ok(derivation.order.iter().all(|&object| derivable.derives(object)))
     }
 }

@@ -1,6 +1,6 @@
-//! Rows of bits.
+//! A bit matrix.
 
-/// A table of bits, as many words to each row.
+/// A bit matrix with a whole number of words per row.
 #[derive(Debug, Clone)]
 pub(super) struct Bits {
     /// Words of one row, at least one.
@@ -26,7 +26,7 @@ impl Bits {
         bits
     }
 
-    /// Of all rows together.
+    /// The words of all rows together.
     pub(super) fn words(&self) -> usize {
         self.data.len()
     }
@@ -78,12 +78,12 @@ impl Bits {
         })
     }
 
-    /// Add a row's bits to another row of the same width.
+    /// Adds a row's bits to `into`, a row of the same width.
     pub(super) fn unite(&self, row: usize, into: &mut [u64]) {
         into.iter_mut().zip(self.row(row)).for_each(|(word, other)| *word |= other);
     }
 
-    /// Make a row this one. True if that changes it.
+    /// Replaces a row. True if that changes it.
     pub(super) fn replace(&mut self, row: usize, by: &[u64]) -> bool {
         let row = &mut self.data[row * self.words..(row + 1) * self.words];
         let changed = row != by;

@@ -1,32 +1,32 @@
-//! New landmarks from a chain that fails, and those that need none.
+//! New landmarks: from a chaining that fails, and from the rules alone.
 
-use super::chain::Chain;
-use super::pace::Pace;
+use super::forward_chaining::ForwardChaining;
 use super::problem::{Node, Problem};
+use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
-/// Grow the allowed set of a chain that does not reach the goal to a maximal one that still does not; return its
-/// complement, a landmark of the goal that is inclusion-minimal and disjoint from what was allowed. The chain comes back as
-/// it was.
+/// Grows the allowed set of a chain that does not reach the goal to a maximal one that still does not. Returns the
+/// complement: an inclusion-minimal landmark of the goal, disjoint from the nodes allowed before. The chain is
+/// restored.
 ///
-/// Only frontier nodes can be in the complement: permission for a node that can't be grasped changes nothing. Nodes far
-/// from the target are let go first, so that its landmarks lie near it, where they are small.
+/// Only frontier nodes can be in the complement, since allowing a node that can't be grasped changes nothing. Nodes far
+/// from the target are allowed first, so that landmarks lie near the target, where they are small.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub(super) fn extract(
     problem: &Problem,
-    chain: &mut Chain<'_>,
+    chain: &mut ForwardChaining<'_>,
     goal: Node,
-    pace: &mut Pace<'_>,
+    ticker: &mut Ticker<'_>,
 ) -> Result<Vec<Node>, Interrupted> {
-    pace.step(1 + problem.movable() / NODES_A_STEP + chain.steps())?;
+    ticker.step(1 + problem.movable() / NODES_A_STEP + chain.steps())?;
     let start = chain.mark();
     let mut landmark = Vec::new();
-    let mut frontier = Queue::new(problem.movable());
+    let mut frontier = Frontier::new(problem.movable());
     (0..problem.target()).filter(|&node| chain.is_frontier(node)).for_each(|node| frontier.push(node));
     while let Some(node) = frontier.pop() {
-        if pace.step(1 + chain.steps()).is_err() {
+        if ticker.step(1 + chain.steps()).is_err() {
             chain.undo(start);
             return Err(Interrupted);
         }
@@ -36,7 +36,7 @@ pub(super) fn extract(
             chain.undo(mark);
             landmark.push(node);
         } else {
-            // Nothing follows from the target.
+            // The target is in no body.
             let new = chain.graspable_since(mark).filter(|&node| node != problem.target() && chain.is_frontier(node));
             new.for_each(|node| frontier.push(node));
         }
@@ -46,7 +46,8 @@ pub(super) fn extract(
     Ok(landmark)
 }
 
-/// Where every option of an object has one member that is not `forced`, these are a landmark for whoever has to grasp it.
+/// The landmark of an object whose bodies each have exactly one member that is not `forced`: these members. `None` if
+/// some body has none or several, or if all bodies have the same one.
 pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node) -> bool) -> Option<Vec<Node>> {
     let mut landmark = Vec::new();
     for &rule in problem.rules_of(object) {
@@ -61,17 +62,17 @@ pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node)
     (landmark.len() > 1).then_some(landmark)
 }
 
-/// How many nodes are looked at in the time of one step.
+/// Nodes read per step of the ticker.
 const NODES_A_STEP: usize = 256;
 
-/// Nodes that wait, the least first.
-struct Queue {
+/// A priority queue of nodes, least first, as a bit set.
+struct Frontier {
     waiting: Vec<u64>,
-    /// Nothing waits in the words before.
+    /// All words before this one are empty.
     first: usize,
 }
 
-impl Queue {
+impl Frontier {
     fn new(nodes: usize) -> Self {
         Self { waiting: vec![0; nodes.div_ceil(64)], first: 0 }
     }

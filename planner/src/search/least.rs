@@ -1,22 +1,22 @@
-//! The main loop: hit, chain, learn.
+//! Implicit hitting set search: least hitting set → forward chaining → new landmark.
 
-use super::chain::Chain;
-use super::clauses::{Known, Wishes};
+use super::clauses::{Facts, MaxSat};
+use super::forward_chaining::ForwardChaining;
 use super::hitting::{Allowance, Stop};
 use super::memory::Memory;
 use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
-use super::pace::Pace;
+use super::preprocessing::{Preprocessed, preprocess};
 use super::problem::{Node, Problem};
-use super::reduction::{Reduced, reduce};
+use super::ticker::Ticker;
 use super::{hitting, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
-/// Landmarks for each node after which cheap sets have taught what they can. Easy bases have fewer by far.
-const ENOUGH: usize = 4;
-/// How long least hitting sets and clauses go on at their first turns: choices, conflicts. Some tenths of a second; what
-/// hitting sets are good at takes fewer choices.
+/// Landmarks per node after which greedy hitting sets give way to least ones. Easy bases have far fewer.
+const LANDMARKS_A_NODE: usize = 4;
+/// The first turns of least hitting sets (choices) and of MaxSAT (conflicts), some tenths of a second each. Problems
+/// that suit hitting sets take fewer choices.
 const FIRST_TURN: (usize, u64) = (500, 50_000);
 
 /// The least set of objects from which the target follows.
@@ -24,7 +24,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
     least_within(&Memory::default(), base, target, restriction, budget)
 }
 
-/// The same with other limits of memory.
+/// [`least`] with other limits of memory.
 pub fn least_within(
     memory: &Memory,
     base: &KnowledgeBase,
@@ -32,140 +32,147 @@ pub fn least_within(
     restriction: &Restriction,
     budget: &Budget<'_>,
 ) -> Outcome {
-    let mut pace = Pace::new(budget);
-    let Reduced { problem, necessary } = match reduce(base, target, restriction, &mut pace) {
+    let mut ticker = Ticker::new(budget);
+    let Preprocessed { problem, fact_landmarks } = match preprocess(base, target, restriction, &mut ticker) {
         Ok(Some(reduced)) => reduced,
         Ok(None) => return Outcome::Underivable,
         Err(Interrupted) => return Outcome::Interrupted(None),
     };
-    let (mut forced, mut excused) = (necessary, Vec::new());
+    let (mut forced, mut underived_required) = (fact_landmarks, Vec::new());
     for object in &restriction.required {
-        // What the target does not depend on is in no least set.
-        if pace.step(1 + (problem.movable() + forced.len()) / 256).is_err() {
+        // No least set holds an object on which the target does not depend.
+        if ticker.step(1 + (problem.movable() + forced.len()) / 256).is_err() {
             return Outcome::Interrupted(None);
         }
         let Some(node) = problem.node(*object) else { return Outcome::Underivable };
         if !forced.contains(&node) {
             forced.push(node);
-            excused.push(node);
+            underived_required.push(node);
         }
     }
-    let Ok(mut search) = Search::new(&problem, forced, excused, memory, &mut pace) else {
+    let Ok(mut search) = HittingSetSearch::new(&problem, forced, underived_required, memory, &mut ticker) else {
         return Outcome::Interrupted(None);
     };
-    match search.run(&mut pace) {
-        Ok(()) => Outcome::Least(search.known(&mut pace)),
-        Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut pace))),
+    match search.run(&mut ticker) {
+        Ok(()) => Outcome::Least(search.known(&mut ticker)),
+        Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut ticker))),
     }
 }
 
-struct Search<'p> {
+struct HittingSetSearch<'p> {
     problem: &'p Problem,
     memory: &'p Memory,
-    /// Between two questions only what is `forced` may be moved.
-    chain: Chain<'p>,
-    /// What is in every set: required, or a landmark by itself.
+    /// Between two calls only the `forced` nodes are allowed.
+    chain: ForwardChaining<'p>,
+    /// The nodes in every set: required ones, and landmarks with a single member.
     forced: Vec<Node>,
-    /// What of that need not be graspable: it is required, whether it helps or not.
-    excused: Vec<Node>,
-    /// All other landmarks.
+    /// Forced nodes that a restriction requires: counted even if no rule derives them.
+    underived_required: Vec<Node>,
+    /// The landmarks with several members.
     landmarks: Vec<Vec<Node>>,
+    /// The best set known, in an order in which it can be moved.
     best: Vec<Node>,
+    /// The lower bound.
     bound: usize,
-    /// As much of it as the landmarks prove.
-    shown: usize,
+    /// The part of the bound that the landmarks prove.
+    proven: usize,
 }
 
-impl<'p> Search<'p> {
+impl<'p> HittingSetSearch<'p> {
     fn new(
         problem: &'p Problem,
         forced: Vec<Node>,
-        excused: Vec<Node>,
+        underived_required: Vec<Node>,
         memory: &'p Memory,
-        pace: &mut Pace<'_>,
+        ticker: &mut Ticker<'_>,
     ) -> Result<Self, Interrupted> {
-        let mut chain = Chain::new(problem);
+        let mut chain = ForwardChaining::new(problem);
         forced.iter().for_each(|&node| chain.allow(node));
-        let best = incumbent::greedy(problem, pace)?;
-        let best = incumbent::derivation(&mut chain, &best, pace).unwrap_or(best);
+        let best = incumbent::h_add(problem, ticker)?;
+        let best = incumbent::derivation(&mut chain, &best, ticker).unwrap_or(best);
         let bound = forced.len();
-        let (landmarks, shown) = (Vec::new(), bound);
-        let mut search = Self { problem, memory, chain, forced, excused, landmarks, best: Vec::new(), bound, shown };
+        let (landmarks, proven) = (Vec::new(), bound);
+        let mut search =
+            Self { problem, memory, chain, forced, underived_required, landmarks, best: Vec::new(), bound, proven };
         search.best = search.with_forced(best);
         Ok(search)
     }
 
-    fn run(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+    fn run(&mut self, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         if self.best.len() <= self.bound {
             return Ok(());
         }
-        let first = self.learn(&[], pace);
-        // So far all are disjoint.
-        self.show(self.forced.len() + self.landmarks.len());
+        let first = self.learn(&[], ticker);
+        // The first landmarks are disjoint, so each counts.
+        self.prove(self.forced.len() + self.landmarks.len());
         first?;
-        self.learn_one_of_each(pace)?;
-        // Cheap sets first: each that fails teaches more landmarks.
-        let mut priced = self.landmarks.len();
+        self.learn_one_of_each(ticker)?;
+        // Greedy hitting sets first: they are cheap, and each that fails gives new landmarks.
+        let mut bounded_at = self.landmarks.len();
         loop {
-            pace.note(self.best.len(), self.bound);
+            ticker.note(self.best.len(), self.bound);
             if self.best.len() <= self.bound {
                 return Ok(());
             }
-            if self.landmarks.len() > 2 * priced {
-                priced = self.landmarks.len();
-                self.raise_bound(pace)?;
+            if self.landmarks.len() > 2 * bounded_at {
+                bounded_at = self.landmarks.len();
+                self.raise_bound(ticker)?;
                 continue;
             }
-            if self.landmarks.len() > ENOUGH * self.problem.movable() {
+            if self.landmarks.len() > LANDMARKS_A_NODE * self.problem.movable() {
                 break;
             }
-            let candidate = hitting::greedy(&self.landmarks, pace)?;
-            if !self.learn(&candidate, pace)? {
+            let candidate = hitting::greedy(&self.landmarks, ticker)?;
+            if !self.learn(&candidate, ticker)? {
                 break;
             }
         }
-        self.settle(FIRST_TURN, pace)
+        self.settle(FIRST_TURN, ticker)
     }
 
-    /// Least hitting sets and clauses in turn, each turn twice as long as the one before: nobody knows which of the two
-    /// comes to an end.
-    fn settle(&mut self, first: (usize, u64), pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+    /// Least hitting sets and MaxSAT in turn. Each turn is twice as long as the last, since either of the two may be
+    /// the one that ends.
+    fn settle(&mut self, first: (usize, u64), ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let (mut choices, mut conflicts) = first;
-        let mut wishes = None;
+        let mut max_sat = None;
         loop {
-            if self.settle_by_hitting(choices, pace)? {
+            if self.settle_by_hitting(choices, ticker)? {
                 return Ok(());
             }
-            let mut by_clauses = match wishes.take() {
+            let mut by_clauses = match max_sat.take() {
                 Some(by_clauses) => by_clauses,
-                None => self.wishes(pace)?,
+                None => self.max_sat_search(ticker)?,
             };
-            let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, pace));
+            let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, ticker));
             self.bound = self.bound.max(by_clauses.bound());
-            pace.note(self.best.len(), self.bound);
+            ticker.note(self.best.len(), self.bound);
             if self.best.len() <= self.bound {
                 return Ok(());
             }
             raised?;
-            wishes = Some(by_clauses);
+            max_sat = Some(by_clauses);
             (choices, conflicts) = (choices.saturating_mul(2), conflicts.saturating_mul(2));
         }
     }
 
-    /// The question by clauses. It knows the landmarks of now; those of later turns it has no need of.
-    fn wishes<'b>(&self, pace: &mut Pace<'b>) -> Result<Wishes<'p, 'b>, Interrupted> {
-        let known =
-            Known { problem: self.problem, forced: &self.forced, excused: &self.excused, landmarks: &self.landmarks };
-        Wishes::new(&known, self.memory.literals, pace)
+    /// The MaxSAT search, given the landmarks known so far.
+    fn max_sat_search<'b>(&self, ticker: &mut Ticker<'b>) -> Result<MaxSat<'p, 'b>, Interrupted> {
+        let facts = Facts {
+            problem: self.problem,
+            forced: &self.forced,
+            underived_required: &self.underived_required,
+            landmarks: &self.landmarks,
+        };
+        MaxSat::new(&facts, self.memory.literals, ticker)
     }
 
-    /// True if that many choices are enough.
-    fn settle_by_hitting(&mut self, choices: usize, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+    /// Runs the main loop with at most so many choices. True if bound and best set meet.
+    fn settle_by_hitting(&mut self, choices: usize, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
         let mut allowance = Allowance { choices, words: self.memory.words };
         while self.best.len() > self.bound {
-            pace.note(self.best.len(), self.bound);
-            match self.least_hitting_set(&mut allowance, pace) {
-                Ok(Some(hit)) => self.learn(&hit, pace)?,
+            ticker.note(self.best.len(), self.bound);
+            match self.least_hitting_set(&mut allowance, ticker) {
+                Ok(Some(hit)) => self.learn(&hit, ticker)?,
                 Ok(None) => return Ok(true),
                 Err(Stop::Spent) => return Ok(false),
                 Err(Stop::Interrupted) => return Err(Interrupted),
@@ -174,15 +181,15 @@ impl<'p> Search<'p> {
         Ok(true)
     }
 
-    /// No set is smaller, and the landmarks prove it.
-    fn show(&mut self, bound: usize) {
-        self.shown = self.shown.max(bound);
+    /// Raises the bound to one that the landmarks prove.
+    fn prove(&mut self, bound: usize) {
+        self.proven = self.proven.max(bound);
         self.bound = self.bound.max(bound);
     }
 
-    /// The best set known, by what is needed of another one.
-    fn adopt(&mut self, set: &[Node], pace: &mut Pace<'_>) -> usize {
-        if let Some(order) = incumbent::derivation(&mut self.chain, set, pace)
+    /// Takes over `set`, made inclusion-minimal, if it is better than the best set. Returns the size of the best set.
+    fn adopt(&mut self, set: &[Node], ticker: &mut Ticker<'_>) -> usize {
+        if let Some(order) = incumbent::derivation(&mut self.chain, set, ticker)
             && order.len() < self.best.len()
         {
             let order = self.with_forced(order);
@@ -193,31 +200,36 @@ impl<'p> Search<'p> {
         self.best.len()
     }
 
-    fn raise_bound(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+    fn raise_bound(&mut self, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let forced = self.forced.len();
-        let bound = forced + hitting::bound(&self.landmarks, self.best.len() - forced, pace)?;
-        self.show(bound);
+        let bound = forced + hitting::bound(&self.landmarks, self.best.len() - forced, ticker)?;
+        self.prove(bound);
         Ok(())
     }
 
-    /// A least set that meets all landmarks but those of what is forced; `None` if the best derivation is as small.
-    fn least_hitting_set(&mut self, allowance: &mut Allowance, pace: &mut Pace<'_>) -> Result<Option<Vec<Node>>, Stop> {
+    /// A least hitting set of the landmarks, without the forced nodes; `None` if with them it is no smaller than the
+    /// best set.
+    fn least_hitting_set(
+        &mut self,
+        allowance: &mut Allowance,
+        ticker: &mut Ticker<'_>,
+    ) -> Result<Option<Vec<Node>>, Stop> {
         let forced = self.forced.len();
-        let found = hitting::least(&self.landmarks, self.best.len() - forced, allowance, pace);
+        let found = hitting::least(&self.landmarks, self.best.len() - forced, allowance, ticker);
         let reached = match &found {
             Ok(Some(hit)) => forced + hit.len(),
             Ok(None) => self.best.len(),
             Err(cut) => forced + cut.bound,
         };
-        self.show(reached);
+        self.prove(reached);
         found.map_err(|cut| cut.stop)
     }
 
-    /// Landmarks that are seen without chaining, round what every derivation grasps.
-    fn learn_one_of_each(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
+    /// Adds landmarks that need no chaining, around the target and the forced nodes, which every derivation grasps.
+    fn learn_one_of_each(&mut self, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let is_forced = self.members(&self.forced);
         for &object in self.forced.iter().chain(&[self.problem.target()]) {
-            pace.step(1 + self.problem.rules_of(object).len() / 64 + self.landmarks.len() / 64)?;
+            ticker.step(1 + self.problem.rules_of(object).len() / 64 + self.landmarks.len() / 64)?;
             if let Some(landmark) = landmark::one_of_each(self.problem, object, |node| is_forced[node as usize])
                 && !self.landmarks.contains(&landmark)
             {
@@ -227,38 +239,37 @@ impl<'p> Search<'p> {
         Ok(())
     }
 
-    /// Per node whether it is one of these.
+    /// Per node whether it is one of `nodes`.
     fn members(&self, nodes: &[Node]) -> Vec<bool> {
         let mut members = vec![false; self.problem.movable() + 1];
         nodes.iter().for_each(|&node| members[node as usize] = true);
         members
     }
 
-    /// Chain with only `candidate` and what is forced movable. While the target does not follow, learn a landmark that
-    /// none of what may be moved meets, and let all its members be moved. True if anything was learnt.
-    fn learn(&mut self, candidate: &[Node], pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
-        pace.step(1 + self.problem.movable() / 64)?;
+    /// Chains with only `candidate` and the forced nodes allowed. While the target does not follow, learns a landmark
+    /// that no allowed node hits, and allows its members. True if it learnt any.
+    fn learn(&mut self, candidate: &[Node], ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
+        ticker.step(1 + self.problem.movable() / 64)?;
         let start = self.chain.mark();
         candidate.iter().for_each(|&node| self.chain.allow(node));
         let (known, forced) = (self.landmarks.len(), self.forced.len());
         let mut result = Ok(());
         while result.is_ok() && !self.chain.reaches_target() {
-            result = self.learn_one(pace);
+            result = self.learn_one(ticker);
         }
         if result.is_ok() {
-            // What was learnt in one go is disjoint from the candidate and from each other.
             let allowed = (0..self.problem.target()).filter(|&node| self.chain.is_allowed(node)).collect::<Vec<_>>();
             self.chain.undo(start);
             self.forced[forced..].iter().for_each(|&node| self.chain.allow(node));
-            self.adopt(&allowed, pace);
+            self.adopt(&allowed, ticker);
         } else {
             self.chain.undo(start);
         }
         result.map(|()| self.landmarks.len() + self.forced.len() > known + forced)
     }
 
-    fn learn_one(&mut self, pace: &mut Pace<'_>) -> Result<(), Interrupted> {
-        let landmark = landmark::extract(self.problem, &mut self.chain, self.problem.target(), pace)?;
+    fn learn_one(&mut self, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
+        let landmark = landmark::extract(self.problem, &mut self.chain, self.problem.target(), ticker)?;
         landmark.iter().for_each(|&node| self.chain.allow(node));
         if let [node] = landmark[..] {
             self.forced.push(node);
@@ -268,7 +279,7 @@ impl<'p> Search<'p> {
         Ok(())
     }
 
-    /// A required object is in the set even where nothing in it makes that object graspable.
+    /// Adds the forced nodes that are missing: a required node counts even if nothing in the set derives it.
     fn with_forced(&self, mut order: Vec<Node>) -> Vec<Node> {
         let is_there = self.members(&order);
         let missing: Vec<Node> = self.forced.iter().copied().filter(|&node| !is_there[node as usize]).collect();
@@ -276,17 +287,17 @@ impl<'p> Search<'p> {
         order
     }
 
-    fn known(&self, pace: &mut Pace<'_>) -> LeastSet {
+    fn known(&self, ticker: &mut Ticker<'_>) -> LeastSet {
         let objects = |nodes: &[Node]| nodes.iter().map(|&node| self.problem.object(node)).collect::<Vec<_>>();
         let landmarks = self.forced.iter().map(|&node| vec![node]).chain(self.landmarks.iter().cloned()).collect();
         let mut landmarks: Vec<Vec<ObjectIndex>> =
-            proof::concise(landmarks, self.shown, pace).iter().map(|landmark| objects(landmark)).collect();
+            proof::concise(landmarks, self.proven, ticker).iter().map(|landmark| objects(landmark)).collect();
         landmarks.iter_mut().for_each(|landmark| landmark.sort_unstable());
         landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
         LeastSet {
             derivation: Derivation { order: objects(&self.best) },
             bound: self.bound,
-            shown: self.shown,
+            proven: self.proven,
             landmarks,
         }
     }

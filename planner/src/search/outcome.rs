@@ -1,26 +1,26 @@
-//! What is asked, and what the search says.
+//! The question to the search, and its answer.
 
 use crate::scene::ObjectIndex;
 
 /// Objects in an order in which each can be moved, after which the target can be grasped. The target is not among them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Derivation {
-    /// In order.
+    /// The objects, in order.
     pub order: Vec<ObjectIndex>,
 }
 
-/// What the search knows: a bound with its proof, and the best derivation so far.
+/// A lower bound with its proof, and the best derivation so far.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LeastSet {
     /// The shortest derivation known.
     pub derivation: Derivation,
     /// No derivation is shorter.
     pub bound: usize,
-    /// As much of the bound as the landmarks prove. On a hard base that may be less: there the search knows more than it
-    /// can show.
-    pub shown: usize,
-    /// Sets of which every derivation holds at least one member, sorted each; a least set that meets all of them has
-    /// at least `shown` members. (Not so for a restricted question: there they hold only under the restriction.)
+    /// The part of the bound that the landmarks prove. On a hard base it may be less than the bound, the rest of which
+    /// comes from MaxSAT.
+    pub proven: usize,
+    /// Landmarks, each sorted: every derivation holds at least one member of each. A least hitting set of them has at
+    /// least `proven` members. (For a restricted question both hold only under the restriction.)
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 
@@ -31,7 +31,7 @@ pub enum Outcome {
     Least(LeastSet),
     /// The target can't be derived.
     Underivable,
-    /// The budget ended first; what is known so far, `None` if not even a derivation.
+    /// The budget ended first. The best so far, or `None` if there is no derivation yet.
     Interrupted(Option<LeastSet>),
 }
 

@@ -1,6 +1,6 @@
-//! The rules that one question is about, in dense numbers.
+//! The Horn rules of one question, densely numbered.
 
-use super::pace::Pace;
+use super::ticker::Ticker;
 use crate::budget::Interrupted;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
@@ -8,10 +8,10 @@ use crate::scene::ObjectIndex;
 /// An object of the problem; the target is numbered after all others.
 pub(super) type Node = u32;
 
-/// How many members of options are read in the time of one step.
+/// Members of bodies read per step of the ticker.
 pub(super) const MEMBERS_A_STEP: usize = 64;
 
-/// Rules over nodes.
+/// Horn rules over nodes.
 #[derive(Debug)]
 pub(super) struct Problem {
     /// Node to object, the target last.
@@ -19,12 +19,12 @@ pub(super) struct Problem {
     /// Per rule its head.
     heads: Vec<Node>,
     /// Per node its rules.
-    options: Lists,
+    rules_of: Lists,
     bodies: Lists,
     condition_of: Lists,
 }
 
-/// Many short lists in one.
+/// Many short lists in one (compressed sparse rows).
 #[derive(Debug, Default)]
 pub(super) struct Lists {
     first: Vec<u32>,
@@ -54,12 +54,12 @@ impl Lists {
 }
 
 impl Problem {
-    /// The options of `objects` (the target last) that are `usable`, which name no other object.
+    /// The rules of `objects` (the target last) whose bodies are `usable`. These bodies must name no other object.
     pub(super) fn over(
         base: &KnowledgeBase,
         objects: Vec<ObjectIndex>,
         usable: impl Fn(&[ObjectIndex]) -> bool,
-        pace: &mut Pace<'_>,
+        ticker: &mut Ticker<'_>,
     ) -> Result<Self, Interrupted> {
         let mut node_of = vec![Node::MAX; base.len()];
         objects.iter().zip(0..).for_each(|(object, node)| node_of[object.get()] = node);
@@ -76,18 +76,18 @@ impl Problem {
                 heads.push(node_of[object.get()]);
                 members.extend(option.iter().map(|member| (rule, node_of[member.get()])));
             }
-            pace.step(1 + read / MEMBERS_A_STEP)?;
+            ticker.step(1 + read / MEMBERS_A_STEP)?;
         }
-        pace.step(members.len() / MEMBERS_A_STEP)?;
+        ticker.step(members.len() / MEMBERS_A_STEP)?;
         Ok(Self::from_parts(objects, heads, &members))
     }
 
-    /// What the target depends on through `kept` rules only: breadth first backwards from the target, numbered in
-    /// reverse, so that whatever is near the target comes late. Also the new number of each node that is left.
+    /// The part on which the target depends through `kept` rules. Breadth-first backwards from the target, numbered in
+    /// reverse, so that nodes near the target have high numbers. Also returns per node its new number, if it is left.
     pub(super) fn restricted(
         &self,
-        kept: impl Fn(u32, &mut Pace<'_>) -> Result<bool, Interrupted>,
-        pace: &mut Pace<'_>,
+        kept: impl Fn(u32, &mut Ticker<'_>) -> Result<bool, Interrupted>,
+        ticker: &mut Ticker<'_>,
     ) -> Result<(Self, Vec<Option<Node>>), Interrupted> {
         let (mut seen, mut is_kept) = (vec![false; self.objects.len()], vec![false; self.rules()]);
         seen[self.target() as usize] = true;
@@ -95,9 +95,9 @@ impl Problem {
         let mut at = 0;
         while let Some(&node) = order.get(at) {
             at += 1;
-            pace.step(1 + self.rules_of(node).len() / 8)?;
+            ticker.step(1 + self.rules_of(node).len() / 8)?;
             for &rule in self.rules_of(node) {
-                is_kept[rule as usize] = kept(rule, pace)?;
+                is_kept[rule as usize] = kept(rule, ticker)?;
                 let body = if is_kept[rule as usize] { self.body(rule) } else { &[] };
                 for &member in body {
                     if !core::mem::replace(&mut seen[member as usize], true) {
@@ -111,7 +111,7 @@ impl Problem {
         order.iter().zip(0..).for_each(|(&node, new)| number[node as usize] = Some(new));
         let (mut heads, mut members): (Vec<Node>, Vec<(u32, Node)>) = (Vec::new(), Vec::new());
         for (&node, head) in order.iter().zip(0..) {
-            pace.step(1 + self.rules_of(node).len() / 8)?;
+            ticker.step(1 + self.rules_of(node).len() / 8)?;
             for &rule in self.rules_of(node).iter().filter(|&&rule| is_kept[rule as usize]) {
                 #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
                 let new = heads.len() as u32;
@@ -119,7 +119,7 @@ impl Problem {
                 members.extend(self.body(rule).iter().filter_map(|&member| Some((new, number[member as usize]?))));
             }
         }
-        pace.step(members.len() / MEMBERS_A_STEP)?;
+        ticker.step(members.len() / MEMBERS_A_STEP)?;
         let objects = order.iter().map(|&node| self.objects[node as usize]).collect();
         Ok((Self::from_parts(objects, heads, &members), number))
     }
@@ -127,8 +127,8 @@ impl Problem {
     fn from_parts(objects: Vec<ObjectIndex>, heads: Vec<Node>, members: &[(u32, Node)]) -> Self {
         let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
         let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        let options = Lists::from_pairs(objects.len(), heads.iter().copied().zip(0..));
-        Self { objects, heads, options, bodies, condition_of }
+        let rules_of = Lists::from_pairs(objects.len(), heads.iter().copied().zip(0..));
+        Self { objects, heads, rules_of, bodies, condition_of }
     }
 
     /// The number of nodes besides the target.
@@ -151,7 +151,7 @@ impl Problem {
     }
 
     pub(super) fn rules_of(&self, node: Node) -> &[u32] {
-        self.options.get(node)
+        self.rules_of.get(node)
     }
 
     pub(super) fn body(&self, rule: u32) -> &[Node] {

@@ -1,27 +1,27 @@
-//! As few landmarks as prove the bound.
+//! A small set of landmarks that proves the bound.
 
-use super::pace::Pace;
 use super::problem::Node;
+use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
-/// Landmarks that prove the same bound: disjoint ones where those suffice, which anybody can check by counting; otherwise
-/// all that hold no other. Smallest first. Where the budget ends, they come as they are.
-pub(super) fn concise(mut landmarks: Vec<Vec<Node>>, bound: usize, pace: &mut Pace<'_>) -> Vec<Vec<Node>> {
+/// Landmarks that prove the same bound, smallest first: disjoint ones where these suffice, since they are checked by
+/// counting; otherwise all that are not supersets of another. Where the budget ends, all of them.
+pub(super) fn concise(mut landmarks: Vec<Vec<Node>>, bound: usize, ticker: &mut Ticker<'_>) -> Vec<Vec<Node>> {
     landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
-    let Ok(chosen) = disjoint(&landmarks, pace) else { return landmarks };
+    let Ok(chosen) = disjoint(&landmarks, ticker) else { return landmarks };
     if chosen.len() >= bound {
         return chosen.into_iter().take(bound).map(|at| core::mem::take(&mut landmarks[at])).collect();
     }
-    let Ok(chosen) = minimal(&landmarks, pace) else { return landmarks };
+    let Ok(chosen) = minimal(&landmarks, ticker) else { return landmarks };
     chosen.into_iter().map(|at| core::mem::take(&mut landmarks[at])).collect()
 }
 
-/// Landmarks without a common member.
-fn disjoint(landmarks: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Vec<usize>, Interrupted> {
+/// Positions of greedily chosen disjoint landmarks.
+fn disjoint(landmarks: &[Vec<Node>], ticker: &mut Ticker<'_>) -> Result<Vec<usize>, Interrupted> {
     let mut used = vec![false; width(landmarks)];
     let mut chosen = Vec::new();
     for (at, landmark) in landmarks.iter().enumerate() {
-        pace.step(1 + landmark.len() / 64)?;
+        ticker.step(1 + landmark.len() / 64)?;
         if !landmark.iter().any(|&node| used[node as usize]) {
             landmark.iter().for_each(|&node| used[node as usize] = true);
             chosen.push(at);
@@ -30,19 +30,19 @@ fn disjoint(landmarks: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Vec<usize>, 
     Ok(chosen)
 }
 
-/// Landmarks that hold no other one.
-fn minimal(landmarks: &[Vec<Node>], pace: &mut Pace<'_>) -> Result<Vec<usize>, Interrupted> {
+/// Positions of the landmarks that are no supersets of another.
+fn minimal(landmarks: &[Vec<Node>], ticker: &mut Ticker<'_>) -> Result<Vec<usize>, Interrupted> {
     let mut member = vec![false; width(landmarks)];
-    // Those kept, by their first member: whoever holds one has that.
+    // Kept landmarks by their first member, which every superset has.
     let mut kept_by: Vec<Vec<usize>> = vec![Vec::new(); member.len()];
     let mut kept = Vec::new();
     for (at, landmark) in landmarks.iter().enumerate() {
-        pace.step(1 + landmark.len() / 64)?;
+        ticker.step(1 + landmark.len() / 64)?;
         let rivals = landmark.iter().flat_map(|&node| &kept_by[node as usize]);
         landmark.iter().for_each(|&node| member[node as usize] = true);
         let mut holds = false;
         for &rival in rivals {
-            pace.step(1 + landmarks[rival].len() / 64)?;
+            ticker.step(1 + landmarks[rival].len() / 64)?;
             holds = holds || landmarks[rival].iter().all(|&node| member[node as usize]);
         }
         landmark.iter().for_each(|&node| member[node as usize] = false);

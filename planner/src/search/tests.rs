@@ -1,10 +1,10 @@
-//! The search against an exhaustive solver.
+//! The search against enumeration.
 
-use super::pace::Pace;
-use super::reduction::reduce;
+use super::preprocessing::preprocess;
+use super::ticker::Ticker;
 use super::{Alternatives, LeastSet, Outcome, Restriction, least};
 use crate::budget::Budget;
-use crate::knowledge::{KnowledgeBase, close};
+use crate::knowledge::{KnowledgeBase, derivable};
 use crate::scene::ObjectIndex;
 use proptest::prelude::*;
 
@@ -13,7 +13,7 @@ pub(super) fn base(options: &[Vec<Vec<usize>>]) -> KnowledgeBase {
     options.iter().map(|list| list.iter().map(set).collect()).collect()
 }
 
-/// Does the target follow when only `movable` may be moved? Chains round by round, straight from the definition.
+/// True if the target follows when only `movable` may be moved. Chains in rounds, straight from the definition.
 pub(super) fn follows(options: &[Vec<Vec<usize>>], target: usize, movable: u32) -> bool {
     let mut moved = 0_u32;
     loop {
@@ -48,7 +48,7 @@ fn check(options: &[Vec<Vec<usize>>], target: usize) -> Option<LeastSet> {
     };
     let order: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
     assert_eq!(Some(u32::try_from(order.len()).unwrap()), expected, "{order:?}");
-    assert_eq!((found.bound, found.shown), (order.len(), order.len()));
+    assert_eq!((found.bound, found.proven), (order.len(), order.len()));
     for (at, &object) in order.iter().enumerate() {
         assert!(options[object].iter().any(|option| option.iter().all(|m| order[..at].contains(m))), "{order:?}");
     }
@@ -102,29 +102,32 @@ fn sets_come_in_order_under_restrictions() {
     assert_eq!(solve(&[1], &[3]), Some(vec![2, 3]));
 }
 
-/// The objects that are left besides the target, and those of them that are necessary.
-fn reduced(options: &[Vec<Vec<usize>>]) -> (usize, Vec<usize>) {
+/// The number of objects left besides the target, and the fact landmarks.
+fn preprocessed(options: &[Vec<Vec<usize>>]) -> (usize, Vec<usize>) {
     let budget = Budget::unlimited();
     let (base, target) = (base(options), ObjectIndex::new(0));
-    let reduced = reduce(&base, target, &Restriction::default(), &mut Pace::new(&budget)).unwrap().expect("derivable");
-    let mut necessary: Vec<usize> = reduced.necessary.iter().map(|&node| reduced.problem.object(node).get()).collect();
-    necessary.sort_unstable();
-    (reduced.problem.movable(), necessary)
+    let preprocessed =
+        preprocess(&base, target, &Restriction::default(), &mut Ticker::new(&budget)).unwrap().expect("derivable");
+    let mut fact_landmarks: Vec<usize> =
+        preprocessed.fact_landmarks.iter().map(|&node| preprocessed.problem.object(node).get()).collect();
+    fact_landmarks.sort_unstable();
+    (preprocessed.problem.movable(), fact_landmarks)
 }
 
 #[test]
-fn what_all_ways_share_is_necessary() {
+fn what_all_ways_share_is_a_fact_landmark() {
     // t←{a} or {b}, a←{c}, b←{c}, c free.
-    assert_eq!(reduced(&[vec![vec![1], vec![2]], vec![vec![3]], vec![vec![3]], vec![vec![]]]), (3, vec![3]));
+    assert_eq!(preprocessed(&[vec![vec![1], vec![2]], vec![vec![3]], vec![vec![3]], vec![vec![]]]), (3, vec![3]));
 }
 
 #[test]
 fn an_option_that_implies_another_is_left_out() {
-    // t←{a} or {b,c}, b←{a}, a and c free: whoever has moved b has moved a.
-    assert_eq!(reduced(&[vec![vec![1], vec![2, 3]], vec![vec![]], vec![vec![1]], vec![vec![]]]), (1, vec![1]));
-    // Two that imply each other: t←{a} or {b}, a←{b} or {c}, b←{a} or {c}, c free. Neither may take the other along.
+    // t←{a} or {b,c}, b←{a}, a and c free: moving b takes moving a.
+    assert_eq!(preprocessed(&[vec![vec![1], vec![2, 3]], vec![vec![]], vec![vec![1]], vec![vec![]]]), (1, vec![1]));
+    // t←{a} or {b}, a←{b} or {c}, b←{a} or {c}, c free: a can follow from b and b from a, but neither must, so both
+    // stay.
     let both = [vec![vec![1], vec![2]], vec![vec![2], vec![3]], vec![vec![1], vec![3]], vec![vec![]]];
-    assert_eq!(reduced(&both), (3, vec![3]));
+    assert_eq!(preprocessed(&both), (3, vec![3]));
 }
 
 pub(super) fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize>>>> {
@@ -195,7 +198,7 @@ proptest! {
 
     #[test]
     fn chaining_agrees_with_its_definition(options in (2_usize..11).prop_flat_map(options)) {
-        let closure = close(&base(&options), |object| object.get() == 0, &Budget::unlimited()).expect("unlimited");
-        prop_assert_eq!(closure.derives(ObjectIndex::new(0)), follows(&options, 0, u32::MAX));
+        let derivable = derivable(&base(&options), |object| object.get() == 0, &Budget::unlimited()).expect("unlimited");
+        prop_assert_eq!(derivable.derives(ObjectIndex::new(0)), follows(&options, 0, u32::MAX));
     }
 }

@@ -6,7 +6,7 @@ use super::grid::Raster;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::{Disc, Rectangle};
 
-/// All that is nearer than `reach` to a rectangle, which for a disc is its centre alone.
+/// The points nearer than `reach` to a rectangle; for a disc the rectangle is its centre.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blot {
     min: Point2<f64>,
@@ -16,12 +16,12 @@ pub(super) struct Blot {
 }
 
 impl Blot {
-    /// The disc, and what is nearer to it than `beyond` (m).
+    /// The points nearer than `beyond` (m) to the disc.
     pub(super) fn disc(disc: &Disc, beyond: f64) -> Self {
         Self { min: disc.centre, max: disc.centre, reach: disc.radius + beyond }
     }
 
-    /// What is nearer to the rectangle than `reach` (m).
+    /// The points nearer than `reach` (m) to the rectangle.
     pub(super) fn round(area: &Rectangle, reach: f64) -> Self {
         Self { min: area.min(), max: area.max(), reach }
     }
@@ -36,13 +36,13 @@ impl Blot {
     }
 }
 
-/// The image of `blots`: true for each pixel whose middle is in one. Each costs the same per row however wide it is.
+/// The image of `blots`: true for each pixel whose middle is in one. A blot costs the same per row, whatever its width.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub(super) fn image(raster: &Raster, blots: &[Blot], budget: &Budget<'_>) -> Result<Vec<bool>, Interrupted> {
     let mut image = Vec::with_capacity(raster.pixels());
-    // How many more blots cover this pixel of the row than the one before.
+    // Per pixel of the row the number of blots that begin there, less those that end.
     let mut change = vec![0_i32; raster.columns() + 1];
     for row in 0..raster.rows() {
         budget.check()?;

@@ -1,12 +1,12 @@
-//! How many pixels of a disc are white, for every place of the disc at once: convolution by Fourier transform.
+//! The number of white pixels under a disc, for every place of the disc at once: convolution by Fourier transform.
 //!
-//! The white of the image is the real part and the mask the imaginary part of one complex image Z, so that one transform
-//! does for both: with Z* the conjugate of Z at the opposite frequency, their spectra are (Z + Z*)/2 and (Z − Z*)/2i, and
-//! the product is (Z² − Z*²)/4i.
+//! The white of the image is the real part and the mask the imaginary part of one complex image Z, so that one
+//! transform does for both: with Z* the conjugate of Z at the opposite frequency, their spectra are (Z + Z*)/2 and (Z −
+//! Z*)/2i, and the product is (Z² − Z*²)/4i.
 //!
-//! The counts are exact. They are whole numbers, and the transform's error is at most about ε·log₂n times the sum of the
-//! squares of all n pixels: with ε = 1.1·10⁻¹⁶ and 4·10⁶ pixels some 10⁻⁸. So rounding gives the same counts on every
-//! machine. In single precision (ε = 6·10⁻⁸) the same bound is 5, far above the ½ that rounding forgives.
+//! The counts are exact. They are whole numbers, and the transform's error is at most about ε·log₂n times the sum of
+//! the squares of all n pixels: with ε = 1.1·10⁻¹⁶ and 4·10⁶ pixels some 10⁻⁸. So rounding gives the same counts on
+//! every machine. In single precision (ε = 6·10⁻⁸) the same bound is 5, far above the ½ that rounding forgives.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use super::grid::Raster;
 use super::mask::Mask;
 use crate::budget::{Budget, Interrupted};
 
-/// Points that are transformed between two looks at the budget: about 1 ms, and up to 4 ms where one line has more.
+/// Points transformed between two looks at the budget: about 1 ms, and up to 4 ms where one line has more.
 const BEAT: usize = 1 << 14;
 
 type Line = Arc<dyn Fft<f64>>;
@@ -29,7 +29,7 @@ pub(super) struct Convolution {
     forward: (Line, Line),
     inverse: (Line, Line),
     pixels: Vec<Complex<f64>>,
-    /// Some columns, each in one piece.
+    /// Some columns, each contiguous.
     strip: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
 }
@@ -52,8 +52,8 @@ impl Convolution {
         }
     }
 
-    /// Count the white pixels, those that are not `black`, under the mask at every pixel. The image goes round: a mask
-    /// that leaves it on one side enters on the other.
+    /// Counts the white pixels (not `black`) under the mask at every pixel. The image is periodic: a mask that leaves
+    /// it on one side enters on the other.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.

@@ -9,8 +9,8 @@ use crate::scene::Table;
 /// The paper names no resolution; this one puts 30 pixels across its objects. m per pixel.
 pub const DEFAULT_RESOLUTION: f64 = 0.005;
 
-/// The most pixels of an image, with those beyond the table's edge that make it a good size for a Fourier transform. At 16
-/// bytes a pixel the largest image takes 64 MB.
+/// The most pixels of an image, with those beyond the table's edge that make it a good size for a Fourier transform. At
+/// 16 bytes a pixel the largest image takes 64 MB.
 pub(super) const MAX_PIXELS: usize = 4_000_000;
 
 /// The most pixels along one side: a line is transformed in one go, without a look at the time.
@@ -35,7 +35,7 @@ pub struct Raster {
     "an image of the table with {resolution} m a pixel has more than {MAX_PIXELS} pixels or {MAX_SIDE} along a side"
 )]
 pub struct TooFine {
-    /// What was asked for, m per pixel.
+    /// The requested resolution, m per pixel.
     pub resolution: f64,
 }
 
@@ -49,7 +49,7 @@ impl Raster {
         let sides = top.max() - top.min();
         let side = |length: f64| {
             let pixels = (length / resolution).ceil();
-            // Written so that what is no number is refused.
+            // Written so that NaN is refused.
             (resolution > 0.0 && pixels <= MAX_SIDE as f64).then(|| good_size(pixels as usize))
         };
         let fits = |(columns, rows): &(usize, usize)| *columns.max(rows) <= MAX_SIDE && columns * rows <= MAX_PIXELS;
@@ -74,7 +74,7 @@ impl Raster {
         self.columns * self.rows
     }
 
-    /// Where in the image a pixel is.
+    /// The position of a pixel in the image.
     pub(super) fn at(&self, column: usize, row: usize) -> usize {
         row * self.columns + column
     }
@@ -97,7 +97,7 @@ impl Raster {
 
     fn between(&self, low: f64, high: f64, count: usize) -> Range<usize> {
         let pixel = |length: f64| length / self.resolution - 0.5;
-        // A cast takes what is below 0 to 0.
+        // The cast saturates: a negative number becomes 0.
         let start = (pixel(low).floor() + 1.0) as usize;
         let end = pixel(high).ceil() as usize;
         start.min(count)..end.clamp(start.min(count), count)

@@ -1,10 +1,11 @@
 //! The mask image of a disc.
 
-/// The pixels of a disc round the middle of a pixel: those whose own middle is not farther away than the radius. Always
-/// one at least.
+/// The pixels of a disc round the middle of a pixel: those whose own middle is not farther away than the radius. At
+/// least one.
 #[derive(Debug, Clone)]
 pub(super) struct Mask {
-    /// How far it reaches to either side in the middle row and in each row above it, pixels. Below it is the same.
+    /// The pixels on either side of the middle, in the middle row and in each row above it. The rows below are the
+    /// same.
     reaches: Vec<usize>,
 }
 
@@ -16,14 +17,14 @@ impl Mask {
         Self { reaches: (0..=radius as usize).map(reach).collect() }
     }
 
-    /// How many pixels it has.
+    /// The number of pixels.
     pub(super) fn pixels(&self) -> usize {
         let one_side: usize = self.reaches[1..].iter().map(|reach| 2 * reach + 1).sum();
         2 * self.reaches[0] + 1 + 2 * one_side
     }
 
-    /// Its lines round the pixel (0, 0) of an image that goes round, each as the row and the reach: the line takes the columns
-    /// from 0 to the reach and, but for 0, as many from the other end. The image is at least as large as the mask.
+    /// Its lines round the pixel (0, 0) of a periodic image, each as (row, reach): the line covers the columns from 0
+    /// to the reach, and as many (without column 0) from the other end. The image is at least as large as the mask.
     pub(super) fn lines(&self, rows: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let up = self.reaches.iter().copied().enumerate();
         let down = self.reaches.iter().enumerate().skip(1).map(move |(down, reach)| (rows - down, *reach));

@@ -1,19 +1,19 @@
 //! Section IV.C: new places on an image of the table.
 //!
-//! For each object in turn (the letters are those of Fig. 5): the other objects, grown by the clearance r_g, are black on
-//! white (c); the share of white under the object's mask is counted at every pixel (d), and pixels above the threshold of
-//! Eq. 7 are marked (e); of these the one farthest from the target is taken that does not interfere with what comes later
-//! (f). There is no way back: where no pixel is left, there is no arrangement.
+//! For each object in turn (the letters are those of Fig. 5): the other objects, grown by the clearance r_g, are black
+//! on white (c); the share of white under the object's mask is counted at every pixel (d), and pixels above the
+//! threshold of Eq. 7 are marked (e); of these the one farthest from the target is taken that does not interfere with
+//! what comes later (f). There is no way back: where no pixel is left, there is no arrangement.
 //!
-//! What the paper says in words and its formulas leave out holds too. A new place "does not overlap with other objects":
-//! it keeps the margin to each. It lies on the table and outside keep-outs. It leaves r_g, and the margin, round the target
-//! and round all that is still to be moved. These three are decided at the middle of each pixel by its distance, not by
-//! counting pixels: an object is put onto a pixel's middle, so no rounding to pixels takes part, and nothing is ever put
-//! onto something else. Only the counts of Eq. 7 are as coarse as the pixels.
+//! Three demands of the paper's text that its formulas leave out are met too. A new place "does not overlap with other
+//! objects": it keeps the margin to each. It lies on the table and outside keep-outs. It leaves r_g, and the margin,
+//! round the target and round all objects still to be moved. These are decided by distances from the middle of each
+//! pixel, not by counting pixels: objects are put onto pixel middles, so no rounding to pixels takes part, and no
+//! object is put onto another. Only the counts of Eq. 7 are as coarse as the pixels.
 //!
-//! The paper's stated gap stays: whether the gripper can be opened at the new place is not asked. Nor is r_g quite what the
-//! fingers reach: their outer corners are farther out, so a later grasp may be blocked, wide fingers that open a little
-//! above all.
+//! The gap that the paper states stays: it does not ask whether the gripper can open at the new place. Also the fingers
+//! reach farther than r_g, with their outer corners, so a later grasp may be blocked; most of all with wide fingers
+//! that open only a little.
 
 mod blot;
 mod convolution;
@@ -37,11 +37,11 @@ use convolution::Convolution;
 use mask::Mask;
 use threshold::{WHITE, threshold};
 
-/// Places for the objects of `order`, movable ones other than the target, moved one after the other. `None` if one of them
-/// finds no place. The raster is one of the scene's table.
+/// Places for the objects of `order`, movable ones other than the target, moved one after the other. `None` if one of
+/// them finds no place. The raster is one of the scene's table.
 ///
-/// Grasps are the middle of the widest free interval under `model`. A release that has none is at the yaw of its grasp, a
-/// grasp that has none at 0, both with slack 0: whether such a plan can be carried out is for the checker to say.
+/// Grasps are the middle of the widest free interval under `model`. A release that has none is at the yaw of its grasp,
+/// a grasp that has none at 0, both with slack 0: whether such a plan can be carried out is for the checker to say.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -100,7 +100,7 @@ impl Pictured<'_> {
         if columns.is_empty() || rows.is_empty() {
             return Ok(None);
         }
-        // Only now is it known that the mask is no larger than the image.
+        // The object fits on the table, so the mask is no larger than the image.
         let mask = Mask::new(radius, raster.resolution());
         let taken = blot::image(raster, &self.taken(object, later), budget)?;
         let grown = blot::image(raster, &self.grown(object), budget)?;
@@ -133,7 +133,8 @@ impl Pictured<'_> {
         self.others(object).map(|(_, disc)| Blot::disc(&disc, clearance)).collect()
     }
 
-    /// Where the object's centre may not be: too near to others, to keep-outs, to what is still to be grasped.
+    /// The places where the object's centre may not be: too near to others, to keep-outs, or to objects still to be
+    /// grasped.
     fn taken(&self, object: ObjectIndex, later: &[ObjectIndex]) -> Vec<Blot> {
         let (gripper, radius) = (self.scene.gripper(), self.layout.disc(object).radius);
         let apart = radius + gripper.margin() + INSIDE;

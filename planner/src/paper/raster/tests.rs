@@ -1,4 +1,4 @@
-//! Whole places, against their definition.
+//! Repositioning against its definition.
 
 use core::time::Duration;
 

@@ -1,18 +1,18 @@
-//! Eq. 7: how much of the disc must be white.
+//! Eq. 7: the part of the disc that must be white.
 
 use core::f64::consts::PI;
 
-/// The value of a place under which all is white.
+/// The value of a place whose mask is all white.
 pub(super) const WHITE: f64 = 255.0;
 
-/// Eq. 7 as printed, 0 to 255: 255·(1 − 2θ/360 + sin θ/π) with the smaller of θ_g and θ_k for θ. `radius` and `clearance`
-/// (r_g) in m, `period` is θ_k = 2π/k.
+/// Eq. 7 as printed, 0 to 255: 255·(1 − 2θ/360 + sin θ/π) with the smaller of θ_g and θ_k for θ. `radius` and
+/// `clearance` (r_g) in m, `period` is θ_k = 2π/k.
 ///
-/// "The angle from the center of the circle when it overlaps by r_g" (θ_g) is read off the formula: what that takes off,
-/// (θ − sin θ)/π of the disc, is the lens of two equal circles, and in a lens r_g wide each of the two segments is r_g/2
-/// high. For the paper's gripper and objects (r = 0.075, r_g = 0.05) θ_g is 96.4°, the threshold 199.1, and 22 % of the disc
-/// may be black: objects of one size then stay 4 mm apart by Eq. 7 alone. Smaller ones next to larger ones may not; hence
-/// the separate look at what stands there.
+/// "The angle from the center of the circle when it overlaps by r_g" (θ_g) is read off the formula: the part that it
+/// subtracts, (θ − sin θ)/π of the disc, is the lens of two equal circles, and in a lens r_g wide each of the two
+/// segments is r_g/2 high. For the paper's gripper and objects (r = 0.075, r_g = 0.05) θ_g is 96.4°, the threshold
+/// 199.1, and 22 % of the disc may be black: objects of one size then stay 4 mm apart by Eq. 7 alone. Smaller ones next
+/// to larger ones may not; hence the separate test against other objects.
 ///
 /// Read as the angle of one segment of height r_g, θ_g would be 141.1°, and Eq. 7 alone would let the paper's objects
 /// overlap by 19 mm, against its own words.
@@ -45,7 +45,7 @@ mod tests {
         check((0.075, 0.05, 3.0), 199.12898045865282);
         check((0.075, 0.05, 2.0), 199.12898045865282);
         check((0.075, 0.05, 6.0), 240.294_434_166_278_48);
-        // Segments of half the disc, and what is higher than that.
+        // Segments of half the disc, and higher ones.
         check((0.05, 0.1, 2.0), 0.0);
         check((0.05, 0.5, 2.0), 0.0);
         // Next to no clearance: next to nothing may be black.

@@ -1,4 +1,5 @@
-//! What the stated landmarks prove: each is tried by chaining, then their least hitting set is found.
+//! The bound that the stated landmarks prove: each is checked by chaining, then a least hitting set of the sound ones
+//! is computed.
 
 use std::collections::HashMap;
 
@@ -11,7 +12,7 @@ use super::hitting::{MOST_KEPT, least_hits};
 use super::meter::Meter;
 use super::names::{Names, relocatable};
 
-/// How many of the lifted objects a fault names.
+/// The most lifted objects that a fault names.
 const MAX_NAMED: usize = 5;
 
 /// The proven bound.
@@ -19,19 +20,19 @@ const MAX_NAMED: usize = 5;
 pub(super) struct Proof {
     /// No plan has fewer relocations.
     pub(super) bound: usize,
-    /// True if time sufficed: then the landmarks prove no more than `bound`.
+    /// True if time sufficed: then `bound` is exactly what the landmarks prove.
     pub(super) complete: bool,
-    /// The landmarks found sound, none within another: they alone prove `bound`.
+    /// The sound landmarks that prove `bound`, none a superset of another.
     pub(super) sound: Vec<Vec<ObjectIndex>>,
 }
 
-/// A landmark that can be tried: sorted members, and its position in the answer.
+/// A readable landmark: its members, sorted, and its position in the answer.
 struct Landmark {
     members: Vec<ObjectIndex>,
     at: usize,
 }
 
-/// Try the landmarks, smallest first, and count what the sound ones prove.
+/// Checks the landmarks, smallest first, and computes the bound of the sound ones.
 pub(super) fn prove(
     scene: &Scene,
     stated: &[Vec<String>],
@@ -53,7 +54,7 @@ pub(super) fn prove(
     Proof { bound: hits.at_least, complete: complete && hits.exact, sound: sound.landmarks }
 }
 
-/// The landmarks whose members exist and could be moved, smallest first.
+/// The landmarks whose members exist and are movable, smallest first. The others are faults.
 fn readable(
     scene: &Scene,
     stated: &[Vec<String>],
@@ -88,7 +89,7 @@ fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Fa
     None
 }
 
-/// How the target is freed, in words.
+/// A sentence that says how the target is freed.
 fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
     let named: Vec<_> =
         lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();
@@ -102,16 +103,16 @@ fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
     }
 }
 
-/// The landmarks found sound, none within another.
+/// The landmarks found sound, none a superset of another.
 #[derive(Default)]
 struct Sound {
     landmarks: Vec<Vec<ObjectIndex>>,
-    /// The landmarks by their first member.
+    /// Positions of the landmarks, by their first member.
     by_first: HashMap<ObjectIndex, Vec<usize>>,
 }
 
 impl Sound {
-    /// A landmark is sound if the target stays blocked while its members are held.
+    /// Checks one landmark: it is sound if the target stays blocked while its members are held.
     fn try_one(
         &mut self,
         scene: &Scene,
@@ -134,7 +135,8 @@ impl Sound {
         Ok(())
     }
 
-    /// True if a sound landmark is within `members`: those are sound then, as more of them are held, and prove no more.
+    /// True if a sound landmark is a subset of `members`. Then `members` are a sound landmark too, and prove nothing
+    /// more.
     fn covers(&self, members: &[ObjectIndex], meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
         meter.spend(1 + members.len() / 50)?;
         for first in members {
@@ -155,7 +157,7 @@ impl Sound {
         Ok(false)
     }
 
-    /// The landmarks with their members numbered from 0, and how many members there are.
+    /// The landmarks with their members numbered from 0, and the number of different members.
     fn numbered(&self) -> (Vec<Vec<usize>>, usize) {
         let mut all: Vec<ObjectIndex> = self.landmarks.iter().flatten().copied().collect();
         all.sort_unstable();

@@ -1,35 +1,35 @@
-//! Branch and bound over one component, the open questions in a list rather than on the stack.
+//! Depth-first branch and bound over one component, with the open questions in a list rather than on the stack.
 //!
-//! A search is as deep as it has to be. The families that wait take memory: past the limit those of the oldest questions
-//! are forgotten, and made anew from the component should their turn come.
+//! The families of open questions take memory. Past the limit the oldest are forgotten; when their turn comes, they are
+//! computed again from the component.
 
 use crate::budget::Interrupted;
 
 use super::family::{Family, Reduced};
 use super::fork::{Fork, Next};
 use super::meter::Meter;
-use super::shares::improve;
+use super::multipliers::improve;
 
-/// Rounds in which shares are improved after each choice: they come from before it.
+/// Subgradient rounds after each choice, which inherits the multipliers.
 const ROUNDS: usize = 12;
 
-/// How many elements hit the family, if these are fewer than the limit.
+/// How many elements hit the family, if fewer than `limit` do?
 struct Question {
     family: Family,
     limit: usize,
-    /// One component from which nothing can be dropped.
+    /// True for a single component that is fully reduced.
     reduced: bool,
 }
 
-/// What is seen of a question at once.
+/// The outcome of one look at a question.
 enum Sight {
-    /// The least number of elements, or the limit if it is no less.
+    /// The size of a least hitting set, or the limit if that is no larger.
     Answer(usize),
-    /// Others come first.
+    /// Other questions have to be answered first.
     Fork(Fork),
 }
 
-/// What can be decided is: by what the family looks like, and by the shares.
+/// Reduces the family, bounds what is left, and fixes elements by reduced cost.
 fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted> {
     let Question { mut family, limit, mut reduced } = question;
     let mut counted = 0;
@@ -49,16 +49,16 @@ fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted>
         }
         meter.spend(family.units())?;
         let left = limit - counted;
-        let worth = improve(&mut family, left, ROUNDS, meter).map_err(|_| Interrupted)?;
-        if worth.at_least() >= left {
+        let lagrangian = improve(&mut family, left, ROUNDS, meter).map_err(|_| Interrupted)?;
+        if lagrangian.at_least() >= left {
             return Ok(Sight::Answer(limit));
         }
         let (refused, others): (Vec<usize>, Vec<usize>) =
-            (0..family.width).partition(|element| worth.with(*element) >= left);
-        let taken: Vec<usize> = others.into_iter().filter(|element| worth.without(*element) >= left).collect();
+            (0..family.width).partition(|element| lagrangian.with(*element) >= left);
+        let taken: Vec<usize> = others.into_iter().filter(|element| lagrangian.without(*element) >= left).collect();
         if refused.is_empty() && taken.is_empty() {
             return Ok(match family.most_frequent() {
-                Some(element) => Sight::Fork(Fork::choice(family, element, worth.at_least(), counted, limit)),
+                Some(element) => Sight::Fork(Fork::choice(family, element, lagrangian.at_least(), counted, limit)),
                 None => Sight::Answer(counted),
             });
         }
@@ -70,22 +70,22 @@ fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted>
     }
 }
 
-/// A search for the least number of elements.
+/// The search for the size of a least hitting set.
 struct Search<'s, 'b> {
-    /// To begin again with.
+    /// The root, from which forgotten families are computed again.
     component: &'s Family,
-    /// Members of the families of all that waits, but for the last one's.
+    /// The most members in the families of all open questions but the last one.
     most_kept: usize,
     meter: &'s mut Meter<'b>,
-    /// Each waits for the one after it.
+    /// The open questions; each waits for the one after it.
     open: Vec<Fork>,
-    /// Members of their families.
+    /// The members in their families.
     kept: usize,
-    /// So many of them, the oldest, have no family left.
+    /// The number of the oldest ones whose families were forgotten.
     forgotten: usize,
 }
 
-/// The least number of elements that hit a reduced component, or `limit` if it is no less. What waits keeps no more than
+/// The size of a least hitting set of a reduced component, or `limit` if that is no larger. Open questions keep at most
 /// `most_kept` members, and the last one its own.
 ///
 /// # Errors
@@ -157,7 +157,7 @@ impl Search<'_, '_> {
         Ok(Question { family, limit, reduced })
     }
 
-    /// Make the families of the last question anew: ask all before it once more, with what is known now.
+    /// Computes the families of the last question again, by replaying the path from the root to it.
     fn recall(&mut self) -> Result<(), Interrupted> {
         let mut question = self.first(self.open[0].limit);
         let last = self.open.len() - 1;
@@ -174,7 +174,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// A question that forked once forks again.
+/// The fork of a question that forked before.
 fn again(question: Question, meter: &mut Meter<'_>) -> Result<Fork, Interrupted> {
     match look(question, meter)? {
         Sight::Fork(fork) => Ok(fork),

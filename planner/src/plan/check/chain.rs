@@ -1,7 +1,7 @@
-//! What can be lifted while some objects are held: forward chaining, asked backwards from the target.
+//! Goal-directed forward chaining: can the target be freed while some objects are held?
 //!
-//! Only objects that could matter are looked at: the target first, then whoever blocks an object that is not free yet. In
-//! a crowd of thousands a landmark is decided among its neighbours.
+//! Only objects that could matter are visited: the target first, then the blockers of each visited object that is not
+//! free yet. So in a crowd of thousands a landmark is checked among its neighbours.
 
 use crate::budget::Interrupted;
 use crate::scene::{ObjectIndex, Scene};
@@ -13,22 +13,22 @@ use super::rings::{Ring, Rings};
 enum State {
     /// Must not be lifted.
     Held,
-    /// Will be looked at.
+    /// In the queue.
     Queued,
-    /// Was looked at and had no free yaw.
+    /// Visited, and had no free yaw.
     Waiting,
     /// Out of the way.
     Lifted,
 }
 
-/// The chaining of one scene; its rings serve question after question, whatever their targets.
+/// The chaining of one scene. Its rings are shared by all questions, whatever their targets.
 pub(super) struct Chain<'s> {
     rings: Rings<'s>,
-    /// The state of each object and the question to which it belongs, so that a new question begins with no work.
+    /// Per object its state, and the number of the question that set it: a new question needs no reset.
     states: Vec<(usize, State)>,
     question: usize,
     queue: Vec<ObjectIndex>,
-    /// In the current question.
+    /// The objects lifted in the current question, in order.
     lifted: Vec<ObjectIndex>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Chain<'s> {
 pub(super) struct Freed {
     /// A free yaw of the target, rad.
     pub(super) yaw: f64,
-    /// What is lifted before, in order; some of it may have nothing to do with the target.
+    /// The objects lifted before it, in order. Not all need have to do with the target.
     pub(super) lifted: Vec<ObjectIndex>,
 }
 
@@ -51,9 +51,8 @@ impl<'s> Chain<'s> {
         &mut self.rings
     }
 
-    /// How the target gets a free yaw once everything is lifted that can be lifted, one after the other, but the target
-    /// itself, the fixed objects and those that are `held`; `None` if it stays blocked. `scene` is that of the rings, its
-    /// target apart.
+    /// Lifts objects one after the other, but never the target, a fixed object or one that is `held`. Returns how the
+    /// target becomes free, or `None` if it stays blocked. `scene` is the scene of the rings, with any target.
     pub(super) fn frees_target(
         &mut self,
         scene: &Scene,
@@ -85,7 +84,7 @@ impl<'s> Chain<'s> {
         Ok(None)
     }
 
-    /// The object's blockers matter from now on.
+    /// The object waits, so its blockers are visited.
     fn wait(&mut self, scene: &Scene, object: ObjectIndex, ring: &Ring) {
         self.set(object, State::Waiting);
         for other in ring.blockers() {
@@ -95,7 +94,7 @@ impl<'s> Chain<'s> {
         }
     }
 
-    /// Those that wait with this one in their way get another look.
+    /// Lifts the object, and visits the waiting objects that it blocked once more.
     fn lift(&mut self, object: ObjectIndex) {
         self.set(object, State::Lifted);
         self.lifted.push(object);
@@ -133,7 +132,7 @@ mod tests {
     use crate::plan::check::rings::Leaning;
     use crate::scene::scenes::TestScene;
 
-    /// Forward, over everything, again and again until nothing more can be lifted.
+    /// Forward chaining over all objects, in rounds until nothing more can be lifted.
     fn naive(scene: &Scene, rings: &mut Rings<'_>, held: &[ObjectIndex], meter: &mut Meter<'_>) -> bool {
         let mut lifted = vec![false; scene.objects().len()];
         loop {

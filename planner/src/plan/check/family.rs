@@ -1,4 +1,4 @@
-//! A family of sets to be hit, and what makes it smaller without changing how many elements hit it.
+//! A family of sets to be hit, with reductions that keep the size of a least hitting set.
 
 use crate::budget::Interrupted;
 
@@ -8,29 +8,29 @@ use super::meter::Meter;
 #[derive(Debug, Clone)]
 pub(super) struct Set {
     members: Vec<usize>,
-    /// One bit for each residue modulo 64: most pairs that are not subsets show it here.
+    /// One bit for each residue modulo 64, as a fast test: most pairs that are not subsets fail it.
     signature: u64,
-    /// What it is worth, see [`super::shares`]; 0 to begin with.
-    pub(super) share: f64,
+    /// Its Lagrange multiplier, see [`super::multipliers`]; 0 at first.
+    pub(super) multiplier: f64,
 }
 
 impl Set {
     /// `members` in increasing order.
     pub(super) fn new(members: Vec<usize>) -> Self {
         let signature = members.iter().fold(0, |bits, member| bits | 1 << (member % 64));
-        Self { members, signature, share: 0.0 }
+        Self { members, signature, multiplier: 0.0 }
     }
 
-    /// Other members, the same share.
+    /// A set of other members with the same multiplier.
     fn with(&self, members: Vec<usize>) -> Self {
-        Self { share: self.share, ..Self::new(members) }
+        Self { multiplier: self.multiplier, ..Self::new(members) }
     }
 
     pub(super) fn members(&self) -> &[usize] {
         &self.members
     }
 
-    /// Adds to `compared` the members that were looked at, and one.
+    /// True if this set is a subset of `other`. Adds the number of members compared, plus one, to `compared`.
     fn is_within(&self, other: &Self, compared: &mut usize) -> bool {
         *compared += 1;
         if self.signature & !other.signature != 0 || self.members.len() > other.members.len() {
@@ -49,16 +49,16 @@ pub(super) struct Family {
     pub(super) width: usize,
 }
 
-/// A family without the parts that are decided.
+/// A reduced family.
 pub(super) struct Reduced {
-    /// Elements that are taken because a set holds nothing else.
+    /// The number of elements decided: single members, and one for each fold.
     pub(super) forced: usize,
-    /// Sets of two or more, none within another, no element worse than another.
+    /// The rest: sets of two or more members, no supersets, no dominated elements.
     pub(super) rest: Family,
 }
 
 impl Family {
-    /// The element that hits most, pairs first of all; `None` if there is nothing to hit.
+    /// The element that hits most sets, where small sets count more; `None` if there is no set.
     pub(super) fn most_frequent(&self) -> Option<usize> {
         let mut weight = vec![0_usize; self.width];
         for set in &self.sets {
@@ -69,7 +69,7 @@ impl Family {
         (weight[best] > 0).then_some(best)
     }
 
-    /// Sets that share no element: as many elements are needed at the least. Smallest sets first.
+    /// Greedy set packing: the number of disjoint sets found, smallest sets first. It is a lower bound.
     pub(super) fn packing(&self) -> usize {
         let mut order: Vec<&Set> = self.sets.iter().collect();
         order.sort_by_key(|set| set.members.len());
@@ -84,7 +84,7 @@ impl Family {
         count
     }
 
-    /// For each element the positions of the sets that hold it.
+    /// Per element the positions of its sets.
     pub(super) fn columns(&self) -> Vec<Vec<usize>> {
         let mut columns = vec![Vec::new(); self.width];
         for (at, set) in self.sets.iter().enumerate() {
@@ -95,24 +95,24 @@ impl Family {
         columns
     }
 
-    /// Members of all sets.
+    /// The number of members of all sets together.
     pub(super) fn size(&self) -> usize {
         self.sets.iter().map(|set| set.members.len()).sum()
     }
 
-    /// Work of a pass over all members, in units of the meter.
+    /// The work of one pass over all members, in units of the meter.
     pub(super) fn units(&self) -> usize {
         1 + (self.size() + self.width) / 200
     }
 
-    /// Drop supersets, take single members, drop dominated elements, fold, until nothing changes. The least number of elements
-    /// that hit the family is `forced` plus that of the rest.
+    /// Drops supersets, takes single members, drops dominated elements and folds, until nothing changes. The size of a
+    /// least hitting set is `forced` plus that of the rest.
     pub(super) fn reduce(mut self, meter: &mut Meter<'_>) -> Result<Reduced, Interrupted> {
         let mut forced = 0;
         loop {
             self.drop_supersets(meter)?;
             let before = self.sets.len();
-            // What holds a single member's set is a superset and gone already, so nothing else is hit by it.
+            // The supersets of a single member are dropped already, so it hits no other set.
             self.sets.retain(|set| set.members.len() > 1);
             forced += before - self.sets.len();
             if self.drop_dominated(meter)? {
@@ -126,7 +126,7 @@ impl Family {
         }
     }
 
-    /// What hits a set hits its supersets.
+    /// Drops supersets: an element that hits a set hits its supersets.
     fn drop_supersets(&mut self, meter: &mut Meter<'_>) -> Result<(), Interrupted> {
         self.sets.sort_by(|a, b| a.members.len().cmp(&b.members.len()).then_with(|| a.members.cmp(&b.members)));
         let mut kept: Vec<Set> = Vec::with_capacity(self.sets.len());
@@ -141,7 +141,7 @@ impl Family {
         Ok(())
     }
 
-    /// An element is not needed if another one hits the same sets and perhaps more. True if any was dropped.
+    /// Drops dominated elements: those whose sets are all hit by another element. True if any was dropped.
     fn drop_dominated(&mut self, meter: &mut Meter<'_>) -> Result<bool, Interrupted> {
         let columns: Vec<Set> = self.columns().into_iter().map(Set::new).collect();
         let mut dropped = vec![false; self.width];
@@ -163,7 +163,7 @@ impl Family {
         Ok(true)
     }
 
-    /// The parts that share no element, each with its elements numbered anew.
+    /// The connected components: parts that share no element, each with its elements renumbered.
     pub(super) fn components(&self) -> Vec<Self> {
         let columns = self.columns();
         let mut numbers: Vec<Option<usize>> = vec![None; self.width];
@@ -204,7 +204,8 @@ impl Family {
         Self { sets: renumbered.collect(), width }
     }
 
-    /// What is left to hit once all of `taken` is taken and none of `refused` may be. `None` if nothing can hit it.
+    /// The sets left once all of `taken` are taken and all of `refused` are refused. `None` if a set has no member
+    /// left.
     pub(super) fn after(&self, taken: &[usize], refused: &[usize]) -> Option<Self> {
         let (is_taken, is_refused) = (self.mask(taken), self.mask(refused));
         let open = self.sets.iter().filter(|set| !set.members.iter().any(|member| is_taken[*member]));
@@ -215,15 +216,16 @@ impl Family {
         Some(Self { sets: left.collect::<Option<_>>()?, width: self.width })
     }
 
-    /// For each element whether it is one of these.
+    /// Per element whether it is one of `elements`.
     fn mask(&self, elements: &[usize]) -> Vec<bool> {
         let mut mask = vec![false; self.width];
         elements.iter().for_each(|element| mask[*element] = true);
         mask
     }
 
-    /// Where an element hits two pairs and nothing else, some least choice has it alone of the three, or both of its
-    /// partners: one element more than if the partners were one and the pairs were not there. The count of such pieces.
+    /// Folds elements of degree two (Chen, Kanj & Jia 2001). Where an element hits two pairs and nothing else, some
+    /// least hitting set holds either it alone or both of its partners. Dropping the pairs and merging the partners
+    /// lowers the size by one. Returns the number of folds.
     fn fold(&mut self, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
         meter.spend(self.units())?;
         let columns = self.columns();

@@ -1,14 +1,15 @@
-//! Questions of a branch and bound that wait for others: how many elements hit this family?
+//! Open questions of the branch and bound: those that wait for the answers of their components, or of both branches of
+//! a choice.
 
 use super::family::Family;
 
-/// A question that waits.
+/// An open question.
 pub(super) struct Fork {
     /// The limit with which it was asked.
     pub(super) limit: usize,
-    /// Elements that are counted already.
+    /// The number of elements decided so far.
     counted: usize,
-    /// Members that its families hold.
+    /// The members in its families.
     pub(super) size: usize,
     way: Way,
 }
@@ -18,32 +19,35 @@ enum Way {
     Choice(Choice),
 }
 
-/// Components that share no element are counted one after the other.
+/// Components that share no element. They are solved one after the other.
 struct Components {
-    /// Each goes when it is asked for.
+    /// Each is moved out when it is asked for.
     families: Vec<Option<Family>>,
-    /// How many elements each needs at least, and those from `at` on together.
+    /// Per component a lower bound.
     bounds: Vec<usize>,
+    /// The lower bounds from `at` on, added up.
     rest: usize,
     at: usize,
 }
 
-/// An element is taken, and then refused.
+/// Two branches: the element is taken, then refused.
 struct Choice {
-    /// Goes when it is asked for without the element.
+    /// Moved out for the second branch.
     component: Option<Family>,
     element: usize,
-    /// The component needs so many elements at least, and with no more than the limit it needs no more than `best`.
+    /// A lower bound of the component.
     bound: usize,
+    /// The size of its smallest hitting set so far, or what the limit leaves.
     best: usize,
+    /// True in the second branch.
     refused: bool,
 }
 
-/// How it goes on.
+/// The next action for an open question.
 pub(super) enum Next {
-    /// With [`Fork::family`]: are fewer elements enough?
+    /// Ask whether fewer than `limit` elements hit [`Fork::family`].
     Ask { limit: usize },
-    /// The least number of elements, or the limit if it is no less.
+    /// The size of a least hitting set, or the limit if that is no larger.
     Answer(usize),
 }
 
@@ -55,14 +59,14 @@ impl Fork {
         Self { limit, counted, size, way: Way::Components(Components { families, bounds, rest, at: 0 }) }
     }
 
-    /// `component` needs `bound` elements at least.
+    /// `bound` is a lower bound of the component.
     pub(super) fn choice(component: Family, element: usize, bound: usize, counted: usize, limit: usize) -> Self {
         let (best, size) = (limit - counted, component.size());
         let choice = Choice { component: Some(component), element, bound, best, refused: false };
         Self { limit, counted, size, way: Way::Choice(choice) }
     }
 
-    /// What to do first.
+    /// The first action.
     pub(super) fn begin(&mut self) -> Next {
         match &mut self.way {
             Way::Components(components) => components.go_on(self.counted, self.limit),
@@ -70,7 +74,7 @@ impl Fork {
         }
     }
 
-    /// What to do now that the question that was asked has its answer.
+    /// The next action, given the answer to the last question.
     pub(super) fn next(&mut self, least: usize) -> Next {
         match &mut self.way {
             Way::Components(components) => {
@@ -82,7 +86,7 @@ impl Fork {
         }
     }
 
-    /// The family of the question to ask; `None` if it was forgotten.
+    /// The family to ask about; `None` if it was forgotten.
     pub(super) fn family(&mut self) -> Option<Family> {
         match &mut self.way {
             Way::Components(components) => {
@@ -90,7 +94,7 @@ impl Fork {
                 self.size -= family.size();
                 Some(family)
             }
-            // Sets of one component have two members at least: something is left of each.
+            // Each set of a component has at least two members, so none becomes empty.
             Way::Choice(choice) if choice.refused => {
                 self.size = 0;
                 choice.component.take()?.after(&[], &[choice.element])
@@ -99,12 +103,12 @@ impl Fork {
         }
     }
 
-    /// True if nothing can be dropped from the families.
+    /// True if the families are fully reduced.
     pub(super) fn is_reduced(&self) -> bool {
         matches!(self.way, Way::Components(_))
     }
 
-    /// Give the families' memory back.
+    /// Drops the families.
     pub(super) fn forget(&mut self) {
         self.size = 0;
         match &mut self.way {
@@ -113,7 +117,7 @@ impl Fork {
         }
     }
 
-    /// Take over the families of `again`, the same fork as it was in the beginning.
+    /// Takes over the families of `again`, which is this fork made anew.
     pub(super) fn recall(&mut self, again: Self) {
         self.size = again.size;
         match (&mut self.way, again.way) {

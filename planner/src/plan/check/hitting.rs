@@ -1,40 +1,41 @@
-//! The least number of objects that hit every landmark: branch and bound.
+//! The size of a least hitting set of all landmarks, by branch and bound.
 
 use crate::budget::Interrupted;
 
 use super::branch::branch;
 use super::family::{Family, Set};
 use super::meter::Meter;
-use super::shares::{Worth, divide, improve};
+use super::multipliers::{LagrangianBound, improve, initialise};
 
-/// How many elements hit every set.
+/// The size of a least hitting set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Hits {
-    /// No fewer elements do.
+    /// A lower bound.
     pub(super) at_least: usize,
-    /// That many do.
+    /// True if the lower bound is the size.
     pub(super) exact: bool,
 }
 
-/// Rounds in which shares are improved at first.
+/// Subgradient rounds for a component that inherits no multipliers.
 const FIRST_ROUNDS: usize = 100;
-/// Members of all that waits in a search, some 40 MB. Past that it takes longer, and finds the same.
+/// The most members of all open questions of a search, some 40 MB. Past that the search takes longer and finds the
+/// same.
 pub(super) const MOST_KEPT: usize = 4_000_000;
 
 /// The least number of elements, below `width`, that hit every one of the non-empty `sets` (each in increasing order).
-/// Where the budget ends first, components already searched count in full and the others by their disjoint sets or
-/// shares. A search keeps no more than about `most_kept` members.
+/// Where the budget ends first, components already searched count in full and the others by a packing or the Lagrangian
+/// bound. A search keeps no more than about `most_kept` members.
 pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, most_kept: usize, meter: &mut Meter<'_>) -> Hits {
     let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width };
-    divide(&mut family);
+    initialise(&mut family);
     let bound = family.packing().max(reached(improve(&mut family, usize::MAX, 0, meter)).at_least());
     let Ok(reduced) = family.reduce(meter) else { return Hits { at_least: bound, exact: false } };
     let mut hits = Hits { at_least: reduced.forced, exact: true };
     let mut components = reduced.rest.components();
-    // Where time runs out, most are counted in full.
+    // Small components first: where time runs out, as many as possible count in full.
     components.sort_by_key(Family::size);
     for mut component in components {
-        divide(&mut component);
+        initialise(&mut component);
         let mut floor = component.packing();
         match search(component, &mut floor, most_kept, meter) {
             Ok(least) => hits.at_least += least,
@@ -44,11 +45,11 @@ pub(super) fn least_hits(sets: Vec<Vec<usize>>, width: usize, most_kept: usize, 
             }
         }
     }
-    // Either is a bound; the parts add up to more as a rule, but not where all were cut short.
+    // Both are bounds. The sum over components is usually larger, but not where all were cut short.
     Hits { at_least: hits.at_least.max(bound), ..hits }
 }
 
-/// The least number of elements for one component; `floor` rises to what is proven if that can't be found.
+/// The size of a least hitting set of one component. `floor` is a lower bound, and rises while the search runs.
 fn search(
     mut component: Family,
     floor: &mut usize,
@@ -63,12 +64,12 @@ fn search(
     branch(&component, known, most_kept, meter)
 }
 
-/// Any shares are good for a bound.
-fn reached(worth: Result<Worth, Worth>) -> Worth {
-    worth.unwrap_or_else(|cut| cut)
+/// The bound, whether or not the budget ended: any multipliers give one.
+fn reached(lagrangian: Result<LagrangianBound, LagrangianBound>) -> LagrangianBound {
+    lagrangian.unwrap_or_else(|cut| cut)
 }
 
-/// Some number of elements that suffices: what can be decided is, then the one that hits most is taken, and again.
+/// Greedy upper bound: reduce, take the most frequent element, repeat.
 fn greedy(mut family: Family, meter: &mut Meter<'_>) -> Result<usize, Interrupted> {
     let mut count = 0;
     loop {
@@ -95,7 +96,7 @@ mod tests {
     fn solve(sets: &[Vec<usize>], width: usize) -> Hits {
         let solve = |most_kept| least_hits(sets.to_vec(), width, most_kept, &mut Meter::new(&Budget::unlimited()));
         let hits = solve(MOST_KEPT);
-        assert_eq!(solve(5), hits, "what was forgotten is made anew");
+        assert_eq!(solve(5), hits, "forgotten families are computed again");
         hits
     }
 
@@ -117,11 +118,11 @@ mod tests {
             let exact = enumerate(&sets, 12);
             prop_assert_eq!(solve(&sets, 12), Hits { at_least: exact, exact: true });
             let mut family = Family { sets: sets.into_iter().map(Set::new).collect(), width: 12 };
-            divide(&mut family);
+            initialise(&mut family);
             prop_assert!(family.packing() <= exact && reached(improve(&mut family, exact + 1, 40, &mut Meter::new(&Budget::unlimited()))).at_least() <= exact);
         }
 
-        /// Two tangles and a few links: a choice among the links leaves parts that are searched apart.
+        /// Two tangles and a few links: a choice among the links leaves components that are searched separately.
         #[test]
         fn linked_parts_are_searched_right(
             left in proptest::collection::vec((0_usize..7, 1_usize..7), 4..14),
@@ -149,11 +150,11 @@ mod tests {
     }
 
     #[test]
-    fn shares_see_what_disjoint_sets_do_not() {
+    fn multipliers_see_what_disjoint_sets_do_not() {
         // All pairs of five: no two disjoint pairs more than 2, but each element hits only 4 of 10.
         let pairs = (0..5).flat_map(|a| (a + 1..5).map(move |b| Set::new(vec![a, b])));
         let mut family = Family { sets: pairs.collect(), width: 5 };
-        divide(&mut family);
+        initialise(&mut family);
         assert_eq!(
             (family.packing(), reached(improve(&mut family, 4, 0, &mut Meter::new(&Budget::unlimited()))).at_least()),
             (2, 3)
@@ -170,8 +171,8 @@ mod tests {
 
     #[test]
     fn a_component_of_more_than_twenty_thousand_members_is_searched_too() {
-        // All triples of 36 sets, each an element that hits these three: 12 elements hit all. Besides Petersen's graph, of
-        // which shares see 5 of 6 vertices; one more set keeps the two together.
+        // All triples of 36 sets, each an element that hits these three: 12 elements hit all. Besides Petersen's graph,
+        // of which multipliers see 5 of 6 vertices; one more set keeps the two together.
         let (mut sets, ten) = petersen(1);
         let mut width = ten;
         let mut tripled = vec![Vec::new(); 36];

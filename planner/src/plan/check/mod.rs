@@ -16,13 +16,13 @@ mod fork;
 mod hitting;
 mod lock;
 mod meter;
+mod multipliers;
 mod names;
 mod near;
 mod needed;
 mod place;
 mod replay;
 mod rings;
-mod shares;
 mod yaws;
 
 pub use fault::{Fault, FaultCode, MAX_FAULTS, Report};

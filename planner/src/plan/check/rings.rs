@@ -1,4 +1,4 @@
-//! Who stands round each object at the start, and whether those that still stand leave it a yaw.
+//! The obstacles that block each object at the start, and the yaws that those still standing leave free.
 
 use std::rc::Rc;
 
@@ -10,20 +10,21 @@ use super::meter::Meter;
 use super::near::Tree;
 use super::yaws::blocked_yaws;
 
-/// Which way a case is decided that rounding leaves open.
+/// How a case is decided that rounding leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Leaning {
-    /// Rather blocked: for statements that an object can't be grasped (locks, landmarks).
+    /// As blocked: for claims that an object can't be grasped (locks, landmarks).
     Blocked,
-    /// Rather free: for statements that it can (needed objects).
+    /// As free: for claims that an object can be grasped (needed objects).
     Free,
 }
 
-/// A free interval is called so only when its width is this much beyond the least, rad: two ways to find an end of it
+/// Added to the least width of a free interval, or subtracted, by leaning, rad. Two ways to compute an interval's end
 /// differ by less.
 const WIDTH_LEANING: f64 = 1e-10;
-/// An obstacle is taken larger by this share of the lengths in play. Where a circle is only just touched, the last digit
-/// decides between no shadow and one of 1e-8 rad; this is far above the last digit and far below `WIDTH_LEANING`.
+/// Added to an obstacle's radius, or subtracted, by leaning, as a share of the lengths involved. Where a circle is only
+/// just touched, the last digit decides between no shadow and one of 1e-8 rad; this is far above the last digit and far
+/// below `WIDTH_LEANING`.
 const LENGTH_LEANING: f64 = 1e-12;
 
 impl Leaning {
@@ -35,38 +36,38 @@ impl Leaning {
     }
 }
 
-/// Yaws that one obstacle blocks.
+/// An interval of yaws that one obstacle blocks.
 struct Shade {
     lo: f64,
     hi: f64,
     by: ObjectIndex,
 }
 
-/// All that blocks one object at the start.
+/// The blocked yaws of one object at the start.
 pub(super) struct Ring {
-    /// By `lo`.
+    /// Sorted by `lo`.
     shades: Vec<Shade>,
 }
 
 impl Ring {
-    /// How many intervals it holds.
+    /// The number of intervals.
     pub(super) fn len(&self) -> usize {
         self.shades.len()
     }
 
-    /// Who blocks some yaw; one that has several shades is named several times.
+    /// The obstacles that block some yaw, once for each interval.
     pub(super) fn blockers(&self) -> impl Iterator<Item = ObjectIndex> + '_ {
         self.shades.iter().map(|shade| shade.by)
     }
 }
 
-/// The rings of a scene, each made when it is first asked for. They are the same whatever the target is.
+/// The rings of a scene, each computed on first use. They don't depend on the target.
 pub(super) struct Rings<'s> {
     scene: &'s Scene,
     start: Rc<Tree>,
     leaning: Leaning,
     made: Vec<Option<Rc<Ring>>>,
-    /// For each object those whose ring, if made, holds it.
+    /// Per object the objects whose computed rings hold it.
     watchers: Vec<Vec<ObjectIndex>>,
 }
 
@@ -76,7 +77,7 @@ impl<'s> Rings<'s> {
         Self { scene, start: Rc::clone(start), leaning, made: vec![None; count], watchers: vec![Vec::new(); count] }
     }
 
-    /// How many objects the scene has.
+    /// The number of objects in the scene.
     pub(super) fn count(&self) -> usize {
         self.made.len()
     }
@@ -97,7 +98,7 @@ impl<'s> Rings<'s> {
         Ok(ring)
     }
 
-    /// The objects in whose rings, as far as they are made, this one stands.
+    /// The objects whose rings, as far as they are computed, hold this one.
     pub(super) fn watchers(&self, object: ObjectIndex) -> &[ObjectIndex] {
         &self.watchers[object.get()]
     }
@@ -123,8 +124,8 @@ impl<'s> Rings<'s> {
         Ok(Ring { shades })
     }
 
-    /// The middle of the widest interval of yaws (rad, in one period from 0) that is free while those obstacles stand for
-    /// which `stands` is true; `None` where no free interval counts. Where nothing blocks every yaw will do, whatever the
+    /// The middle of the widest free interval of yaws (rad, in one period from 0), counting only obstacles for which
+    /// `stands` is true. `None` if no interval is wide enough. Where nothing blocks, every yaw is free, whatever the
     /// tolerance.
     pub(super) fn free_yaw(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<f64> {
         let gripper = self.scene.gripper();

@@ -1,42 +1,43 @@
-//! The SAT solver, under our budget.
+//! The CDCL solver (batsat) with assumptions, under our budget.
 
 use core::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lbool};
+use batsat::{Callbacks, ClauseKind, Lit, SolverInterface, SolverOpts, lbool};
 
-use super::founded::Founded;
+use super::unfounded_sets::UnfoundedSets;
 use crate::budget::Interrupted;
-use crate::search::pace::Pace;
+use crate::search::ticker::Ticker;
 
-/// Learnt clauses that are kept in any case. So small a problem soon asks again for what it forgot.
+/// Learnt clauses that are always kept. On problems this small a deleted clause is soon learnt again.
 const KEPT: i32 = 5000;
-/// Steps of a [`Pace`] for one round of propagation, one more for as many literals, and for as many rules that
-/// [`Founded`] looks at.
+/// Steps of a [`Ticker`] for one round of propagation.
 const STEPS: usize = 4;
+/// Literals of all clauses that add one step to each round.
 const LITERALS_A_STEP: usize = 1000;
+/// Rules read by [`UnfoundedSets`] that cost one step.
 const RULES_A_STEP: usize = 100;
 
-/// What the solver says to some wishes.
+/// What the solver says to a list of assumptions.
 pub(super) enum Reply {
-    /// All can be granted, see [`Asker::is_true`].
-    Granted,
-    /// These can't, nor can any set that holds them.
-    Clash(Vec<Lit>),
-    /// The conflicts are spent, or the memory, or the budget.
-    Spent,
+    /// There is a model, see [`Solver::is_true`].
+    Sat,
+    /// There is none: the core, assumptions of which at least one fails.
+    Unsat(Vec<Lit>),
+    /// The conflicts, the memory or the budget ran out first.
+    Unknown,
 }
 
-/// A solver that can be asked again and again, and that remembers what it has learnt.
-pub(super) struct Asker<'b> {
-    solver: Solver<Limits<'b>>,
+/// An incremental solver: it keeps its learnt clauses from call to call.
+pub(super) struct Solver<'b> {
+    solver: batsat::Solver<Limits<'b>>,
 }
 
-impl<'b> Asker<'b> {
-    /// No clauses yet, and that many literals in all of them at the most.
-    pub(super) fn new(max_literals: usize, pace: Pace<'b>) -> Self {
+impl<'b> Solver<'b> {
+    /// A solver without clauses. All clauses together may hold `max_literals`.
+    pub(super) fn new(max_literals: usize, ticker: Ticker<'b>) -> Self {
         let limits = Limits {
-            pace: RefCell::new(pace),
+            ticker: RefCell::new(ticker),
             steps: STEPS,
             work: Rc::default(),
             ended: Cell::new(false),
@@ -46,16 +47,16 @@ impl<'b> Asker<'b> {
             max_literals,
         };
         let options = SolverOpts { min_learnts_lim: KEPT, ..SolverOpts::default() };
-        Self { solver: Solver::new(options, limits) }
+        Self { solver: batsat::Solver::new(options, limits) }
     }
 
-    /// A literal for something new. Where nothing speaks for either, it is taken to be `likely`.
+    /// The literal of a new variable. Its first phase is true if it is `likely`.
     pub(super) fn literal(&mut self, likely: bool) -> Lit {
         let likely = if likely { lbool::TRUE } else { lbool::UNDEF };
         Lit::new(self.solver.new_var(likely, true), true)
     }
 
-    /// One of these holds.
+    /// Adds a clause.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
@@ -64,37 +65,42 @@ impl<'b> Asker<'b> {
         let limits = self.solver.cb_mut();
         limits.literals += clause.len();
         limits.steps = STEPS + limits.literals / LITERALS_A_STEP;
-        limits.pace.get_mut().step(1 + clause.len() / 8)?;
+        limits.ticker.get_mut().step(1 + clause.len() / 8)?;
         self.solver.add_clause_reuse(&mut clause);
         Ok(())
     }
 
-    /// Can all wishes be granted? Learns no more than so many clauses for it.
-    pub(super) fn ask(&mut self, founded: &mut Founded<'_>, wishes: &[Lit], conflicts: u64) -> Reply {
+    /// Solves under assumptions, with at most so many `conflicts`.
+    pub(super) fn solve(
+        &mut self,
+        unfounded_sets: &mut UnfoundedSets<'_>,
+        assumptions: &[Lit],
+        conflicts: u64,
+    ) -> Reply {
         let limits = self.solver.cb_mut();
         limits.last = limits.conflicts.saturating_add(conflicts);
-        let answer = self.solver.solve_limited_th(founded, wishes);
+        let answer = self.solver.solve_limited_th(unfounded_sets, assumptions);
         if answer == lbool::TRUE {
-            Reply::Granted
+            Reply::Sat
         } else if answer == lbool::FALSE {
-            // The solver gives the clause that it learnt, which denies the wishes.
-            Reply::Clash(self.solver.unsat_core().iter().map(|&lit| !lit).collect())
+            // batsat returns the final conflict clause: the negations of the core's literals.
+            Reply::Unsat(self.solver.unsat_core().iter().map(|&lit| !lit).collect())
         } else {
-            Reply::Spent
+            Reply::Unknown
         }
     }
 
-    /// Does it hold in what was granted last?
+    /// The literal's value in the last model.
     pub(super) fn is_true(&self, literal: Lit) -> bool {
         self.solver.value_lit(literal) == lbool::TRUE
     }
 
-    /// Where rules are counted that are looked at between two rounds of propagation.
+    /// The counter of rules read between two rounds of propagation.
     pub(super) fn work(&self) -> Rc<Cell<usize>> {
         Rc::clone(&self.solver.cb().work)
     }
 
-    /// How many clauses were learnt in all.
+    /// The number of clauses learnt so far.
     pub(super) fn conflicts(&self) -> u64 {
         self.solver.cb().conflicts
     }
@@ -106,19 +112,19 @@ impl<'b> Asker<'b> {
     }
 }
 
-/// When the solver has to stop. It asks after each round of propagation.
+/// The limits at which the solver stops. It asks after each round of propagation.
 struct Limits<'b> {
-    pace: RefCell<Pace<'b>>,
-    /// What one round costs.
+    ticker: RefCell<Ticker<'b>>,
+    /// The cost of one round.
     steps: usize,
-    /// Rules looked at besides.
+    /// Rules read since the last round.
     work: Rc<Cell<usize>>,
-    /// The budget has.
+    /// True once the budget has ended.
     ended: Cell<bool>,
     conflicts: u64,
-    /// The last conflict for the question at hand.
+    /// The conflict at which the current call stops.
     last: u64,
-    /// Of all clauses together.
+    /// The literals of all clauses together.
     literals: usize,
     max_literals: usize,
 }
@@ -126,7 +132,7 @@ struct Limits<'b> {
 impl Callbacks for Limits<'_> {
     fn on_new_clause(&mut self, clause: &[Lit], kind: ClauseKind) {
         self.conflicts += 1;
-        // What `founded` found is kept besides what follows from it.
+        // The solver keeps a loop nogood beside the clause that it learns from it.
         self.literals += if kind == ClauseKind::Theory { 2 * clause.len() } else { clause.len() };
     }
 
@@ -135,7 +141,7 @@ impl Callbacks for Limits<'_> {
     }
 
     fn stop(&self) -> bool {
-        if self.pace.borrow_mut().step(self.steps + self.work.take() / RULES_A_STEP).is_err() {
+        if self.ticker.borrow_mut().step(self.steps + self.work.take() / RULES_A_STEP).is_err() {
             self.ended.set(true);
         }
         self.ended.get() || self.conflicts >= self.last || self.literals > self.max_literals

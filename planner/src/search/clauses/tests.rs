@@ -1,63 +1,63 @@
-//! The search by clauses: from its first step against exhaustion, and on a base that needs it.
+//! Core-guided MaxSAT from its first step against enumeration, and on a base that needs it.
 
 use core::cell::Cell;
 use core::time::Duration;
 
 use proptest::prelude::*;
 
-use super::{Known, Wishes};
+use super::{Facts, MaxSat};
 use crate::budget::Budget;
-use crate::knowledge::close;
+use crate::knowledge::derivable;
 use crate::scene::ObjectIndex;
-use crate::search::chain::Chain;
-use crate::search::pace::Pace;
+use crate::search::forward_chaining::ForwardChaining;
+use crate::search::preprocessing::preprocess;
 use crate::search::problem::Node;
-use crate::search::reduction::reduce;
 use crate::search::tests::After;
 use crate::search::tests::base;
 use crate::search::tests::exhaustive;
 use crate::search::tests::follows;
 use crate::search::tests::options;
+use crate::search::ticker::Ticker;
 use crate::search::{LeastSet, Outcome, Restriction, least};
 
-/// Bound and best set by clauses alone, so many conflicts a turn, until they meet or the budget ends. `None` if nothing
-/// can be asked.
+/// The bound and the size of the best set by MaxSAT alone, with so many conflicts a turn, until both meet or the budget
+/// ends. `None` if the target can't be derived or time ran out before the first turn.
 fn by_clauses(
     options: &[Vec<Vec<usize>>],
     required: &[usize],
     conflicts: u64,
     budget: &Budget<'_>,
 ) -> Option<(usize, usize)> {
-    let mut pace = Pace::new(budget);
-    let reduced = reduce(&base(options), ObjectIndex::new(0), &Restriction::default(), &mut pace).ok()??;
-    let problem = &reduced.problem;
-    let (mut forced, mut excused) = (reduced.necessary, Vec::new());
+    let mut ticker = Ticker::new(budget);
+    let preprocessed = preprocess(&base(options), ObjectIndex::new(0), &Restriction::default(), &mut ticker).ok()??;
+    let problem = &preprocessed.problem;
+    let (mut forced, mut underived_required) = (preprocessed.fact_landmarks, Vec::new());
     for &object in required {
         let node = problem.node(ObjectIndex::new(object))?;
         if !forced.contains(&node) {
             forced.push(node);
-            excused.push(node);
+            underived_required.push(node);
         }
     }
-    let known = Known { problem, forced: &forced, excused: &excused, landmarks: &[] };
-    let mut wishes = Wishes::new(&known, usize::MAX, &mut pace).ok()?;
+    let facts = Facts { problem, forced: &forced, underived_required: &underived_required, landmarks: &[] };
+    let mut max_sat = MaxSat::new(&facts, usize::MAX, &mut ticker).ok()?;
     let mut best = problem.movable();
-    while wishes.bound() < best {
+    while max_sat.bound() < best {
         let (smallest, mut adopted) = (best, best);
         let mut adopt = |set: &[Node]| {
-            let mut chain = Chain::new(problem);
+            let mut chain = ForwardChaining::new(problem);
             set.iter().for_each(|&node| chain.allow(node));
             assert!(chain.reaches_target() && forced.iter().all(|node| set.contains(node)), "{set:?}");
             adopted = adopted.min(set.len());
             adopted
         };
-        let raised = wishes.raise(conflicts, smallest, &mut adopt);
+        let raised = max_sat.raise(conflicts, smallest, &mut adopt);
         best = adopted;
         if raised.is_err() {
             break;
         }
     }
-    Some((wishes.bound(), best))
+    Some((max_sat.bound(), best))
 }
 
 proptest! {
@@ -98,8 +98,8 @@ fn what_is_required_is_not_made_graspable_at_a_cost() {
     assert_eq!(by_clauses(&options, &[2], 1000, &Budget::unlimited()), Some((2, 2)));
 }
 
-/// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up instead.
-/// The lowest layer is free.
+/// Six layers of 16 objects: each needs two of the layer below in one of three ways, now and then one further up
+/// instead. The lowest layer is free.
 fn stack() -> Vec<Vec<Vec<usize>>> {
     const LAYERS: usize = 6;
     const WIDTH: usize = 16;
@@ -125,7 +125,7 @@ fn stack() -> Vec<Vec<Vec<usize>>> {
     all
 }
 
-/// What clingo finds.
+/// The optimum by clingo.
 const STACK_OPTIMUM: usize = 30;
 
 #[test]
@@ -134,15 +134,15 @@ fn a_stack_is_settled_by_clauses() {
     let solve = || least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &Budget::unlimited());
     let Outcome::Least(found) = solve() else { unreachable!("the budget never ends") };
     assert_eq!((found.bound, found.derivation.order.len()), (STACK_OPTIMUM, STACK_OPTIMUM));
-    assert!(found.shown < found.bound, "its landmarks show as much as the clauses");
+    assert!(found.proven < found.bound, "its landmarks prove as much as the clauses");
     assert!(is_derived(&options, &found));
     assert_eq!(solve(), Outcome::Least(found), "a second answer to the same question");
 }
 
 fn is_derived(options: &[Vec<Vec<usize>>], found: &LeastSet) -> bool {
     let moved = |object: ObjectIndex| found.derivation.order.contains(&object);
-    let closure = close(&base(options), |object| !moved(object), &Budget::unlimited()).unwrap();
-    closure.derives(ObjectIndex::new(0))
+    let derivable = derivable(&base(options), |object| !moved(object), &Budget::unlimited()).unwrap();
+    derivable.derives(ObjectIndex::new(0))
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn a_stack_cut_off_anywhere_claims_only_what_holds() {
         let budget = Budget::new(&clock, Duration::MAX);
         match least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget) {
             Outcome::Interrupted(Some(found)) => {
-                among_clauses += usize::from(found.bound > found.shown);
+                among_clauses += usize::from(found.bound > found.proven);
                 assert!(found.bound <= STACK_OPTIMUM && STACK_OPTIMUM <= found.derivation.order.len());
                 assert!(is_derived(&options, &found));
             }

@@ -1,47 +1,47 @@
-//! What is seen of a question without asking another one: it is decided, it falls into parts, or it needs a choice.
+//! One node of the branch and bound: a question is answered at once, falls into parts, or needs a choice.
 
 use super::fork::{Choice, Fork, Parts};
 use super::instance::{Decided, Instance};
-use super::prices::{Valuation, raise};
+use super::multipliers::{LagrangianBound, raise};
 use super::reduce::reduce;
-use super::{Found, Stop};
-use crate::search::pace::Pace;
+use super::{Solution, Stop};
+use crate::search::ticker::Ticker;
 
-/// Rounds for the prices of a part, which come from the part before it.
+/// Subgradient rounds for a part that inherits its multipliers.
 const ROUNDS: usize = 12;
 
-/// Asks for a least solution of the instance with fewer than `limit` elements.
+/// Is there a hitting set of the instance with fewer than `limit` elements? If so, which is least?
 pub(super) struct Question {
     pub(super) instance: Instance,
     pub(super) limit: usize,
-    /// One part, in which nothing can be decided but by prices.
+    /// True for a single part that is fully reduced: only the bound can decide more.
     pub(super) reduced: bool,
 }
 
-/// What is seen of a question.
+/// The outcome of one look at a question.
 pub(super) enum Sight {
-    Answer(Found),
-    /// Others have to be answered first.
+    Answer(Solution),
+    /// Other questions have to be answered first.
     Fork(Box<Fork>),
 }
 
-/// Decide what needs no choice, and bound the rest.
+/// Reduces the question, bounds what is left, and fixes elements by the bound.
 ///
 /// # Errors
 /// [`Stop`] when the budget ends or the `choices`, which are counted down, are spent.
-pub(super) fn look(question: Question, choices: &mut usize, pace: &mut Pace<'_>) -> Result<Sight, Stop> {
+pub(super) fn look(question: Question, choices: &mut usize, ticker: &mut Ticker<'_>) -> Result<Sight, Stop> {
     let Question { mut instance, limit, mut reduced } = question;
     let mut decided = Decided::default();
     loop {
-        pace.step(instance.steps())?;
+        ticker.step(instance.steps())?;
         if !core::mem::take(&mut reduced) {
-            if !reduce(&mut instance, &mut decided, pace)? || decided.count() >= limit {
+            if !reduce(&mut instance, &mut decided, ticker)? || decided.count() >= limit {
                 return Ok(Sight::Answer(None));
             }
             let mut parts = instance.parts();
             if parts.len() != 1 {
                 parts.sort_by_key(Instance::sets);
-                // What one element meets would have been decided.
+                // A part that one element hits was solved by `reduce`, so each part needs two.
                 let bounds = vec![2; parts.len()];
                 return Ok(Sight::Fork(Box::new(Fork::Parts(Parts::new(decided, parts, bounds, limit)))));
             }
@@ -49,31 +49,38 @@ pub(super) fn look(question: Question, choices: &mut usize, pace: &mut Pace<'_>)
         }
         *choices = choices.checked_sub(1).ok_or(Stop::Spent)?;
         let rest = limit - decided.count();
-        let worth = raise(&mut instance, rest, ROUNDS, pace).map_err(|_| Stop::Interrupted)?;
-        if worth.bound() >= rest {
+        let lagrangian = raise(&mut instance, rest, ROUNDS, ticker).map_err(|_| Stop::Interrupted)?;
+        if lagrangian.bound() >= rest {
             return Ok(Sight::Answer(None));
         }
-        if fix(&mut instance, &worth, rest, &mut decided) {
+        if fix(&mut instance, &lagrangian, rest, &mut decided) {
             if decided.count() >= limit {
                 return Ok(Sight::Answer(None));
             }
             continue;
         }
-        let Some(element) = most_wanted(&instance) else {
+        let Some(element) = most_frequent(&instance) else {
             return Ok(Sight::Answer(Some(decided.complete(Vec::new()))));
         };
-        return Ok(Sight::Fork(Box::new(Fork::Choice(Choice::new(decided, instance, element, worth.bound(), limit)))));
+        return Ok(Sight::Fork(Box::new(Fork::Choice(Choice::new(
+            decided,
+            instance,
+            element,
+            lagrangian.bound(),
+            limit,
+        )))));
     }
 }
 
-/// Leave out, and take, what a solution with fewer than `limit` elements must. True if there is anything.
-fn fix(instance: &mut Instance, worth: &Valuation, limit: usize, decided: &mut Decided) -> bool {
+/// Reduced-cost fixing: leaves out or takes every element for which the opposite needs `limit` elements or more. True
+/// if it fixed any.
+fn fix(instance: &mut Instance, lagrangian: &LagrangianBound, limit: usize, decided: &mut Decided) -> bool {
     let mut fixed = false;
     for element in 0..instance.elements() {
-        if worth.bound_if(element, true) >= limit {
+        if lagrangian.bound_if(element, true) >= limit {
             instance.exclude(element);
             fixed = true;
-        } else if worth.bound_if(element, false) >= limit {
+        } else if lagrangian.bound_if(element, false) >= limit {
             instance.take(element, decided);
             fixed = true;
         }
@@ -81,9 +88,9 @@ fn fix(instance: &mut Instance, worth: &Valuation, limit: usize, decided: &mut D
     fixed
 }
 
-/// The element that meets most of what is open, small sets first of all; `None` if nothing is.
-pub(super) fn most_wanted(instance: &Instance) -> Option<usize> {
-    let mut wanted = vec![0_u32; instance.elements()];
+/// The element that hits most open sets, where small sets count more; `None` if no set is open.
+pub(super) fn most_frequent(instance: &Instance) -> Option<usize> {
+    let mut weights = vec![0_u32; instance.elements()];
     for set in (0..instance.sets()).filter(|&set| instance.is_open(set)) {
         let weight = match instance.members().count(set) {
             0..=2 => 8,
@@ -91,8 +98,8 @@ pub(super) fn most_wanted(instance: &Instance) -> Option<usize> {
             4 => 2,
             _ => 1,
         };
-        instance.members().ones(set).for_each(|element| wanted[element] += weight);
+        instance.members().ones(set).for_each(|element| weights[element] += weight);
     }
-    let best = (0..wanted.len()).max_by_key(|&element| (wanted[element], core::cmp::Reverse(element)))?;
-    (wanted[best] > 0).then_some(best)
+    let best = (0..weights.len()).max_by_key(|&element| (weights[element], core::cmp::Reverse(element)))?;
+    (weights[best] > 0).then_some(best)
 }

@@ -1,56 +1,58 @@
-//! Questions that wait for others: for their parts, or for what follows from a choice.
+//! Open questions: those that wait for the answers of their parts, or of both branches of a choice.
 
-use super::Found;
+use super::Solution;
 use super::instance::{Decided, Instance};
 use crate::search::problem::Node;
 
-/// A question that waits, and what is known of its answer.
+/// An open question, with the part of its answer that is known.
 pub(super) enum Fork {
     Parts(Parts),
     Choice(Choice),
 }
 
-/// How it goes on.
+/// The next action for an open question.
 pub(super) enum Next {
-    /// With [`Fork::instance`]: a solution with fewer elements is wanted.
+    /// Ask about [`Fork::instance`] with this limit.
     Ask {
         limit: usize,
     },
-    Answer(Found),
+    Answer(Solution),
 }
 
-/// Parts that share no element are solved one after the other.
+/// Parts that share no element. They are solved one after the other.
 pub(super) struct Parts {
     decided: Decided,
-    /// They have to have fewer elements together.
+    /// All parts together must have fewer elements.
     limit: usize,
-    /// Each goes when it is asked for.
+    /// Each is moved out when it is asked for.
     instances: Vec<Option<Instance>>,
-    /// How many elements each needs at least, and those after the next one together.
+    /// Per part a lower bound.
     bounds: Vec<usize>,
+    /// The lower bounds of the parts after the next one, added up.
     later: usize,
     at: usize,
     solved: Vec<Node>,
 }
 
-/// An element is taken, and then left out.
+/// Two branches: the element is taken, then left out.
 pub(super) struct Choice {
     decided: Decided,
-    /// The part has to have fewer elements.
+    /// The solution of the part must have fewer elements.
     limit: usize,
-    /// Goes when it is asked for without the element.
+    /// Moved out for the second branch.
     part: Option<Instance>,
     element: usize,
     label: Node,
     /// No solution of the part has fewer elements.
     bound: usize,
-    /// True once the element is left out; then `with` is the solution that holds it.
+    /// True in the second branch.
     left_out: bool,
-    with: Found,
+    /// The solution of the first branch.
+    with: Solution,
 }
 
 impl Fork {
-    /// What to do first.
+    /// The first action.
     pub(super) fn begin(&mut self) -> Next {
         match self {
             Self::Parts(parts) => parts.go_on(),
@@ -58,15 +60,15 @@ impl Fork {
         }
     }
 
-    /// What to do now that the question that was asked has its answer.
-    pub(super) fn next(&mut self, found: Found) -> Next {
+    /// The next action, given the answer to the last question.
+    pub(super) fn next(&mut self, found: Solution) -> Next {
         match self {
             Self::Parts(parts) => parts.next(found),
             Self::Choice(choice) => choice.next(found),
         }
     }
 
-    /// The instance of the question to ask; `None` if it was forgotten.
+    /// The instance to ask about; `None` if it was forgotten.
     pub(super) fn instance(&mut self) -> Option<Instance> {
         match self {
             Self::Parts(parts) => parts.instances[parts.at].take(),
@@ -74,17 +76,17 @@ impl Fork {
         }
     }
 
-    /// True if another question needs the instance that this one has.
+    /// True if the instance is needed again after the next question.
     pub(super) fn asks_again(&self) -> bool {
         matches!(self, Self::Choice(Choice { left_out: false, .. }))
     }
 
-    /// True if nothing can be decided in the instances but by prices.
+    /// True if the instances are fully reduced: only the bound can decide more.
     pub(super) fn is_reduced(&self) -> bool {
         matches!(self, Self::Parts(_))
     }
 
-    /// How much memory the instances take, in words.
+    /// Memory of the instances, in words.
     pub(super) fn words(&self) -> usize {
         match self {
             Self::Parts(parts) => parts.instances.iter().flatten().map(Instance::words).sum(),
@@ -92,7 +94,7 @@ impl Fork {
         }
     }
 
-    /// Give the memory back.
+    /// Drops the instances.
     pub(super) fn forget(&mut self) {
         match self {
             Self::Parts(parts) => parts.instances.fill_with(|| None),
@@ -100,7 +102,7 @@ impl Fork {
         }
     }
 
-    /// Take over the instances of `again`, the same fork as it was in the beginning.
+    /// Takes over the instances of `again`, which is this fork made anew.
     pub(super) fn recall(&mut self, again: Self) {
         match (self, again) {
             (Self::Parts(parts), Self::Parts(again)) => {
@@ -114,14 +116,14 @@ impl Fork {
 }
 
 impl Parts {
-    /// `limit` counts what is decided; each part needs so many elements at least.
+    /// `limit` includes the decided elements; `bounds` are lower bounds, one for each part.
     pub(super) fn new(decided: Decided, instances: Vec<Instance>, bounds: Vec<usize>, limit: usize) -> Self {
         let (limit, later) = (limit - decided.count(), bounds.iter().sum());
         let instances = instances.into_iter().map(Some).collect();
         Self { decided, limit, instances, bounds, later, at: 0, solved: Vec::new() }
     }
 
-    fn next(&mut self, found: Found) -> Next {
+    fn next(&mut self, found: Solution) -> Next {
         let Some(found) = found else { return Next::Answer(None) };
         self.solved.extend(found);
         self.at += 1;
@@ -141,13 +143,13 @@ impl Parts {
 }
 
 impl Choice {
-    /// `limit` counts what is decided.
+    /// `limit` includes the decided elements.
     pub(super) fn new(decided: Decided, part: Instance, element: usize, bound: usize, limit: usize) -> Self {
         let (limit, label) = (limit - decided.count(), part.label(element));
         Self { decided, limit, part: Some(part), element, label, bound, left_out: false, with: None }
     }
 
-    fn next(&mut self, found: Found) -> Next {
+    fn next(&mut self, found: Solution) -> Next {
         if self.left_out {
             return self.answer(found);
         }
@@ -160,8 +162,8 @@ impl Choice {
         if limit <= self.bound { self.answer(None) } else { Next::Ask { limit } }
     }
 
-    /// A solution without the element is a smaller one, if there is any.
-    fn answer(&mut self, without: Found) -> Next {
+    /// The second branch was asked for fewer elements than the first one has, so its solution is the better one.
+    fn answer(&mut self, without: Solution) -> Next {
         let best = without.or_else(|| self.with.take());
         Next::Answer(best.map(|best| self.decided.complete(best)))
     }

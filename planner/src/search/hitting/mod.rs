@@ -1,29 +1,29 @@
-//! A least set that meets every landmark.
+//! A least hitting set of all landmarks, by branch and bound over rows of bits.
 //!
-//! Branch and bound over rows of bits. At each choice the instance is first cut down (`reduce`) and split into parts that
-//! share no element; prices bound each part from below, and decide those elements that no small solution can do with, or
-//! without (`prices`); then one element is taken or left out (`branch`, `fork`). No depth is too much (`search`).
+//! Each question is first reduced (`reduce`) and split into parts that share no element. The Lagrangian bound of each
+//! part prunes it, and fixes elements by reduced cost (`multipliers`). Then one element is taken or left out (`branch`,
+//! `fork`). Open questions are kept in a list, so that no depth is too much (`branch_and_bound`).
 
 mod branch;
+mod branch_and_bound;
 mod fork;
 mod greedy;
 mod instance;
-mod prices;
+mod multipliers;
 mod reduce;
-mod search;
 #[cfg(test)]
 mod tests;
 
+pub(super) use branch_and_bound::{Allowance, bound, least};
 pub(super) use greedy::greedy;
-pub(super) use search::{Allowance, bound, least};
 
 use super::problem::Node;
 use crate::budget::Interrupted;
 
-/// A solution; `None` if every one has at least as many elements as the limit.
-type Found = Option<Vec<Node>>;
+/// A least hitting set; `None` if it has no fewer elements than the limit.
+type Solution = Option<Vec<Node>>;
 
-/// Why a search was not carried to its end.
+/// Why a search stopped early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stop {
     /// The choices are spent.
@@ -38,10 +38,10 @@ impl From<Interrupted> for Stop {
     }
 }
 
-/// A search that was not carried to its end.
+/// A search that stopped early.
 #[derive(Debug)]
 pub(super) struct Cut {
-    /// No set of fewer members meets every landmark.
+    /// No smaller set hits every landmark.
     pub(super) bound: usize,
     pub(super) stop: Stop,
 }

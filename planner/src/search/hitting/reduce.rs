@@ -1,15 +1,19 @@
-//! What can be decided without a choice.
+//! Reductions: elements and sets that can be decided without branching.
 
 use smallvec::SmallVec;
 
 use super::instance::{Decided, Instance};
 use crate::budget::Interrupted;
-use crate::search::pace::Pace;
+use crate::search::ticker::Ticker;
 
-/// Decide until nothing obvious is left: the only member of a set is taken; a set that holds another needs no attention;
-/// an element is left out if another one meets the same sets and perhaps more; three elements fold into one. `false` if
-/// some set has no member left.
-pub(super) fn reduce(instance: &mut Instance, decided: &mut Decided, pace: &mut Pace<'_>) -> Result<bool, Interrupted> {
+/// Applies four rules until none applies: the only member of a set is taken (unit rule); a superset of another set is
+/// dropped; an element is left out if another one hits all its sets (domination, Weihe 1998); an element in two pairs
+/// is folded with its partners (degree-two folding, Chen, Kanj & Jia 2001). `false` if some set has no member left.
+pub(super) fn reduce(
+    instance: &mut Instance,
+    decided: &mut Decided,
+    ticker: &mut Ticker<'_>,
+) -> Result<bool, Interrupted> {
     loop {
         let words = if let Some(set) = instance.shrunk_sets.next(0, 0) {
             instance.shrunk_sets.clear(0, set);
@@ -24,37 +28,37 @@ pub(super) fn reduce(instance: &mut Instance, decided: &mut Decided, pace: &mut 
         } else {
             return Ok(true);
         };
-        pace.step(1 + words / WORDS_A_STEP)?;
+        ticker.step(1 + words / WORDS_A_STEP)?;
     }
 }
 
-/// How many words of rows are read in the time of one step.
+/// Words of rows read per step of the ticker.
 const WORDS_A_STEP: usize = 512;
 
-/// Gives the words that were read, or `None` where no member is left.
+/// Applies the rules for one set. Returns the number of words read, or `None` where the set has no member left.
 fn settle_set(instance: &mut Instance, set: usize, decided: &mut Decided) -> Option<usize> {
     let mut elements = instance.members().ones(set);
     let first = elements.next()?;
-    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.met().row(first));
+    let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.sets_of().row(first));
     let mut rows = 1;
     for element in elements {
         rows += 1;
-        common.iter_mut().zip(instance.met().row(element)).for_each(|(word, other)| *word &= other);
+        common.iter_mut().zip(instance.sets_of().row(element)).for_each(|(word, other)| *word &= other);
     }
     let words = rows * common.len();
     if rows == 1 {
         instance.take(first, decided);
         return Some(words);
     }
-    // What meets this set meets all that hold it.
+    // An element that hits this set hits its supersets too.
     common[set / 64] &= !(1 << (set % 64));
-    for_each_one(&common, |larger| instance.meet(larger));
+    for_each_one(&common, |larger| instance.close(larger));
     Some(words)
 }
 
-/// Gives the words that were read.
+/// Applies the rules for one element. Returns the number of words read.
 fn settle_element(instance: &mut Instance, element: usize, decided: &mut Decided) -> usize {
-    let mut sets = instance.met().ones(element);
+    let mut sets = instance.sets_of().ones(element);
     let Some(first) = sets.next() else { return 0 };
     let mut common: SmallVec<[u64; 8]> = SmallVec::from_slice(instance.members().row(first));
     let mut count = 1;

@@ -8,9 +8,9 @@ use super::instance::{Decided, Instance};
 use super::reduce::reduce;
 use super::{Allowance, Stop, bound, greedy, least};
 use crate::budget::{Budget, Unlimited};
-use crate::search::pace::Pace;
-use crate::search::pace::tests::looks;
 use crate::search::problem::Node;
+use crate::search::ticker::Ticker;
+use crate::search::ticker::tests::looks;
 
 fn enumerated(sets: &[Vec<Node>], nodes: u32) -> usize {
     (0_u32..1 << nodes)
@@ -20,26 +20,26 @@ fn enumerated(sets: &[Vec<Node>], nodes: u32) -> usize {
         .unwrap()
 }
 
-/// As much as it takes.
+/// No limits.
 const ALL: Allowance = Allowance { choices: usize::MAX, words: usize::MAX };
 
 /// The least set is found under every limit above its size, and under none other; the same with no memory to speak of.
 fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
     let exact = enumerated(sets, nodes);
-    let meets = |members: &[Node]| sets.iter().all(|set| set.iter().any(|node| members.contains(node)));
+    let hits = |members: &[Node]| sets.iter().all(|set| set.iter().any(|node| members.contains(node)));
     let budget = Budget::unlimited();
     for limit in 0..exact + 4 {
         let mut allowances = [ALL, Allowance { words: 5, ..ALL }];
         let [found, again] =
-            allowances.each_mut().map(|allowed| least(sets, limit, allowed, &mut Pace::new(&budget)).unwrap());
+            allowances.each_mut().map(|allowed| least(sets, limit, allowed, &mut Ticker::new(&budget)).unwrap());
         prop_assert_eq!(&found, &again);
         prop_assert_eq!(allowances[0].choices, allowances[1].choices);
         prop_assert_eq!(found.as_ref().map(Vec::len), (exact < limit).then_some(exact));
-        prop_assert!(found.is_none_or(|found| meets(&found)));
-        prop_assert!(bound(sets, limit, &mut Pace::new(&budget)).unwrap() <= exact);
+        prop_assert!(found.is_none_or(|found| hits(&found)));
+        prop_assert!(bound(sets, limit, &mut Ticker::new(&budget)).unwrap() <= exact);
     }
-    let small = greedy(sets, &mut Pace::new(&budget)).unwrap();
-    prop_assert!(meets(&small) && small.len() >= exact);
+    let small = greedy(sets, &mut Ticker::new(&budget)).unwrap();
+    prop_assert!(hits(&small) && small.len() >= exact);
     Ok(())
 }
 
@@ -58,7 +58,7 @@ fn a_deep_search_finds_the_same_with_little_memory() {
     let (sets, budget) = (tangle(300, 150), Budget::unlimited());
     let answer = |words: usize| {
         let mut allowance = Allowance { words, ..ALL };
-        let found = least(&sets, 120, &mut allowance, &mut Pace::new(&budget)).unwrap();
+        let found = least(&sets, 120, &mut allowance, &mut Ticker::new(&budget)).unwrap();
         (found.expect("every limit is above it"), usize::MAX - allowance.choices)
     };
     let (found, choices) = answer(usize::MAX);
@@ -71,10 +71,10 @@ fn a_deep_search_finds_the_same_with_little_memory() {
 #[test]
 fn choices_that_are_spent_are_not_time() {
     let (sets, budget) = (tangle(150, 120), Budget::unlimited());
-    let cut = least(&sets, 120, &mut Allowance { choices: 5, ..ALL }, &mut Pace::new(&budget)).unwrap_err();
+    let cut = least(&sets, 120, &mut Allowance { choices: 5, ..ALL }, &mut Ticker::new(&budget)).unwrap_err();
     assert_eq!(cut.stop, Stop::Spent);
     let ended = Budget::new(&Unlimited, Duration::ZERO);
-    let cut = least(&sets, 120, &mut ALL.clone(), &mut Pace::new(&ended)).unwrap_err();
+    let cut = least(&sets, 120, &mut ALL.clone(), &mut Ticker::new(&ended)).unwrap_err();
     assert_eq!(cut.stop, Stop::Interrupted);
 }
 
@@ -92,10 +92,10 @@ fn a_reduction_costs_as_much_as_the_rows_that_are_read() {
         };
         let sets: Vec<Vec<Node>> = (0..1000).map(&mut set).collect();
         looks(|budget| {
-            let pace = &mut Pace::new(budget);
-            let mut instance = Instance::read(&sets, pace).unwrap();
+            let ticker = &mut Ticker::new(budget);
+            let mut instance = Instance::read(&sets, ticker).unwrap();
             let before = instance.members().words();
-            assert_eq!(reduce(&mut instance, &mut Decided::default(), pace), Ok(true));
+            assert_eq!(reduce(&mut instance, &mut Decided::default(), ticker), Ok(true));
             assert_eq!((before, instance.parts()[0].members().words()), (before, before), "nothing is decided");
         })
     };

@@ -1,28 +1,29 @@
-//! What no derivation of an object can do without.
+//! Fact landmarks: for each node, the nodes that every derivation of it moves (Zhu & Givan 2003; Keyder, Richter &
+//! Helmert 2010).
 
 use super::bits::Bits;
-use super::pace::Pace;
 use super::problem::{Node, Problem};
+use super::ticker::Ticker;
 use crate::budget::Interrupted;
 
-/// The most bits that all sets may have together, 8 MB: of larger problems nothing is said.
+/// The most bits of all sets together, 8 MB. Larger problems get no fact landmarks.
 const MAX_BITS: usize = 1 << 26;
 
-/// Per node all that every derivation of it moves, itself included: the greatest solution of
-/// needs(x) = {x} ∪ ⋂ over options of ⋃ over members of needs(m) (Zhu & Givan 2003; Keyder, Richter & Helmert 2010).
-pub(super) struct Necessary {
+/// Per node its fact landmarks, itself included: the greatest fixpoint of
+/// landmarks(x) = {x} ∪ ⋂ over rules of ⋃ over body members of landmarks(m).
+pub(super) struct FactLandmarks {
     sets: Bits,
-    /// Per rule what its members need together.
+    /// Per rule the fact landmarks of its whole body.
     bodies: Bits,
 }
 
-impl Necessary {
-    /// What is necessary for all nodes in `order`, that of some derivation of them all; the target may be the last. `None` where
-    /// there are too many.
+impl FactLandmarks {
+    /// The fact landmarks of all nodes in `order`, which is a derivation of them all; the target may come last. `None`
+    /// if the problem is too large.
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
-    pub(super) fn of(problem: &Problem, order: &[Node], pace: &mut Pace<'_>) -> Result<Option<Self>, Interrupted> {
+    pub(super) fn of(problem: &Problem, order: &[Node], ticker: &mut Ticker<'_>) -> Result<Option<Self>, Interrupted> {
         let nodes = problem.movable() + 1;
         if nodes.saturating_mul(nodes + problem.rules()) > MAX_BITS {
             return Ok(None);
@@ -35,7 +36,7 @@ impl Necessary {
                 if !core::mem::replace(&mut stale[node as usize], false) {
                     continue;
                 }
-                pace.step(1 + problem.rules_of(node).len() * nodes / 2048)?;
+                ticker.step(1 + problem.rules_of(node).len() * nodes / 2048)?;
                 common.fill(u64::MAX);
                 for &rule in problem.rules_of(node) {
                     all.fill(0);
@@ -52,14 +53,14 @@ impl Necessary {
         Ok(Some(known))
     }
 
-    /// What every derivation of the node moves, the node itself included.
+    /// The fact landmarks of a node, itself included.
     pub(super) fn of_node(&self, node: Node) -> impl Iterator<Item = usize> + '_ {
         self.sets.ones(node as usize)
     }
 
-    /// True if nobody needs the rule: when all that it asks for has been moved, another option of its head has been
-    /// moved as well, or the head itself would have been. Of two that imply each other the first stays.
-    pub(super) fn is_idle(&self, problem: &Problem, rule: u32) -> bool {
+    /// True if the rule is dominated: moving its body takes moving the body of another rule of the same head, or the
+    /// head itself. Of two rules that dominate each other the first stays.
+    pub(super) fn is_dominated(&self, problem: &Problem, rule: u32) -> bool {
         let head = problem.head(rule);
         let implies = |rule: u32, other: u32| {
             problem.body(other).iter().all(|&member| self.bodies.has(rule as usize, member as usize))

@@ -1,4 +1,5 @@
-//! Nothing that holds only itself up: what is moved must be graspable by something else that is moved.
+//! Unfounded sets, as in answer set programming (Gebser, Kaufmann & Schaub 2012): nodes that are moved but only support
+//! each other. A moved node needs a rule from outside its cycle.
 
 use core::cell::Cell;
 use core::iter;
@@ -8,51 +9,52 @@ use batsat::{Lit, Theory, TheoryArg, lbool};
 
 use crate::search::problem::{Node, Problem};
 
-/// Chains what is not refused yet, and objects where a moved node does not follow: it and the nodes that it waits for
-/// need some rule from outside, and each of those is refused.
-pub(super) struct Founded<'p> {
+/// A theory of the solver. It chains forward over all that is not assigned false. A node that is moved but not derived
+/// lies in an unfounded set, and the shortest loop nogood of these sets is a conflict.
+pub(super) struct UnfoundedSets<'p> {
     problem: &'p Problem,
-    /// Per node a literal: it is moved, or grasped if it is the target.
+    /// Per node the literal "it is moved"; for the target "it is grasped".
     nodes: Vec<Lit>,
-    /// Per rule a literal: all of its body is moved.
+    /// Per rule the literal "its whole body is moved".
     rules: Vec<Lit>,
-    /// What may be in the set with nothing to make it graspable.
-    excused: Vec<bool>,
+    /// Per node whether it may be moved although no rule derives it, because a restriction requires it.
+    underived_required: Vec<bool>,
     levels: usize,
-    /// Per rule how many members of its body don't follow.
+    /// Per rule the number of members of its body that are not derived.
     standing: Vec<usize>,
     graspable: Vec<bool>,
-    /// What waits for each other, and whether a node is among them.
-    waiting: Vec<Node>,
-    waits: Vec<bool>,
-    /// Rules looked at since somebody paid for it.
+    /// The unfounded set under construction.
+    unfounded: Vec<Node>,
+    /// Per node whether it is in that set.
+    is_unfounded: Vec<bool>,
+    /// Rules read that the ticker has not counted yet.
     work: Rc<Cell<usize>>,
 }
 
-impl<'p> Founded<'p> {
-    /// What it does is counted in `work`.
+impl<'p> UnfoundedSets<'p> {
+    /// The theory of a problem; it counts its work in `work`.
     pub(super) fn new(
         problem: &'p Problem,
         nodes: Vec<Lit>,
         rules: Vec<Lit>,
-        excused: &[Node],
+        underived_required: &[Node],
         work: Rc<Cell<usize>>,
     ) -> Self {
         let count = nodes.len();
-        let mut founded = Self {
+        let mut theory = Self {
             problem,
             nodes,
-            excused: vec![false; count],
+            underived_required: vec![false; count],
             levels: 0,
             standing: vec![0; rules.len()],
             rules,
             graspable: vec![false; count],
-            waiting: Vec::new(),
-            waits: vec![false; count],
+            unfounded: Vec::new(),
+            is_unfounded: vec![false; count],
             work,
         };
-        excused.iter().for_each(|&node| founded.excused[node as usize] = true);
-        founded
+        underived_required.iter().for_each(|&node| theory.underived_required[node as usize] = true);
+        theory
     }
 
     fn rules(&self) -> impl Iterator<Item = u32> + use<> {
@@ -63,7 +65,7 @@ impl<'p> Founded<'p> {
         self.work.set(self.work.get() + rules);
     }
 
-    /// What can be grasped if all is moved that is not refused.
+    /// Finds what is graspable when every node is moved that is not assigned false.
     fn chain(&mut self, solver: &TheoryArg<'_>) {
         let problem = self.problem;
         self.graspable.fill(false);
@@ -94,52 +96,54 @@ impl<'p> Founded<'p> {
         }
     }
 
-    /// Why a node that does not follow can't be moved: some clause that is violated.
-    fn objection(&mut self, node: Node, solver: &TheoryArg<'_>) -> Vec<Lit> {
-        self.waiting.push(node);
-        self.waits[node as usize] = true;
+    /// The loop nogood of an unfounded set that holds `node`: if `node` is moved, some external body of the set holds.
+    /// The current assignment violates this clause.
+    fn loop_nogood(&mut self, node: Node, solver: &TheoryArg<'_>) -> Vec<Lit> {
+        self.unfounded.push(node);
+        self.is_unfounded[node as usize] = true;
         let mut at = 0;
-        while let Some(&node) = self.waiting.get(at) {
+        while let Some(&node) = self.unfounded.get(at) {
             at += 1;
             self.count(2 * self.problem.rules_of(node).len());
             for &rule in self.problem.rules_of(node) {
                 let body = self.problem.body(rule);
-                if body.iter().any(|&member| self.waits[member as usize]) || is_false(solver, self.rules[rule as usize])
+                if body.iter().any(|&member| self.is_unfounded[member as usize])
+                    || is_false(solver, self.rules[rule as usize])
                 {
                     continue;
                 }
                 if let Some(&member) = body.iter().find(|&&member| !self.graspable[member as usize]) {
-                    self.waits[member as usize] = true;
-                    self.waiting.push(member);
+                    self.is_unfounded[member as usize] = true;
+                    self.unfounded.push(member);
                 }
             }
         }
         let mut clause = vec![!self.nodes[node as usize]];
-        for &rule in self.waiting.iter().flat_map(|&node| self.problem.rules_of(node)) {
+        for &rule in self.unfounded.iter().flat_map(|&node| self.problem.rules_of(node)) {
             let body = self.problem.body(rule);
-            if body.iter().any(|&member| self.waits[member as usize]) {
+            if body.iter().any(|&member| self.is_unfounded[member as usize]) {
                 continue;
             }
             let parts = iter::once(self.rules[rule as usize]).chain(body.iter().map(|&node| self.nodes[node as usize]));
-            let refused = parts.into_iter().find(|&part| is_false(solver, part));
-            clause.push(refused.expect("a rule whose body follows would make its head follow"));
+            let falsified = parts.into_iter().find(|&part| is_false(solver, part));
+            clause.push(falsified.expect("a rule whose body follows would make its head follow"));
         }
-        self.waiting.drain(..).for_each(|node| self.waits[node as usize] = false);
+        self.unfounded.drain(..).for_each(|node| self.is_unfounded[node as usize] = false);
         clause.sort_unstable();
         clause.dedup();
         clause
     }
 
-    /// The shortest of the objections.
-    fn object(&mut self, solver: &mut TheoryArg<'_>) {
+    /// Raises the shortest loop nogood as a conflict.
+    fn check(&mut self, solver: &mut TheoryArg<'_>) {
         self.chain(solver);
         let mut shortest: Option<Vec<Lit>> = None;
         for node in 0..=self.problem.target() {
             let literal = self.nodes[node as usize];
-            if self.graspable[node as usize] || self.excused[node as usize] || !is_false(solver, !literal) {
+            if self.graspable[node as usize] || self.underived_required[node as usize] || !is_false(solver, !literal) {
                 continue;
             }
-            let clause = self.objection(node, solver);
+            let clause = self.loop_nogood(node, solver);
             if shortest.as_ref().is_none_or(|shortest| clause.len() < shortest.len()) {
                 shortest = Some(clause);
             }
@@ -154,13 +158,13 @@ fn is_false(solver: &TheoryArg<'_>, literal: Lit) -> bool {
     solver.value(literal.var()) == if literal.sign() { lbool::FALSE } else { lbool::TRUE }
 }
 
-impl Theory for Founded<'_> {
+impl Theory for UnfoundedSets<'_> {
     fn final_check(&mut self, solver: &mut TheoryArg<'_>) {
-        self.object(solver);
+        self.check(solver);
     }
 
     fn partial_check(&mut self, solver: &mut TheoryArg<'_>) {
-        self.object(solver);
+        self.check(solver);
     }
 
     fn create_level(&mut self) {
@@ -176,7 +180,7 @@ impl Theory for Founded<'_> {
     }
 
     fn explain_propagation(&mut self, _: Lit) -> &[Lit] {
-        // It only objects.
+        // It only raises conflicts and never propagates.
         &[]
     }
 }

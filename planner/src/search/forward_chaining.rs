@@ -1,38 +1,38 @@
-//! Forward chaining under a growing set of movable nodes, with undo.
+//! Incremental forward chaining (Dowling & Gallier 1984) under a growing set of allowed nodes, with undo.
 
 use super::problem::{Node, Problem};
 
-/// What follows when only some nodes may be moved. Moving a node needs both: it may be moved, and it is graspable.
+/// What follows when only the allowed nodes may be moved. A node is moved once it is both allowed and graspable.
 #[derive(Debug, Clone)]
-pub(super) struct Chain<'p> {
+pub(super) struct ForwardChaining<'p> {
     problem: &'p Problem,
-    /// Per rule how many members of its body still stand.
+    /// Per rule the number of members of its body that are not moved.
     standing: Vec<u32>,
     allowed: Vec<bool>,
     graspable: Vec<bool>,
-    trail: Vec<Event>,
-    /// Position in the trail up to which consequences are drawn.
-    drawn: usize,
-    /// Rules looked at, and what else costs as much, since somebody paid for it.
+    trail: Vec<Change>,
+    /// Position in the trail up to which changes are propagated.
+    propagated: usize,
+    /// Rules read, and other work of the same cost, that the ticker has not counted yet.
     work: usize,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Event {
+enum Change {
     Allowed(Node),
     Graspable(Node),
     Moved(Node),
 }
 
-/// How many rules are looked at in the time of one step.
+/// Rules read per step of the ticker.
 const RULES_A_STEP: usize = 100;
 
-/// A point to which a chain can go back.
+/// A point of the trail to which the chaining can be undone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mark(usize);
 
-impl<'p> Chain<'p> {
-    /// Nothing may be moved.
+impl<'p> ForwardChaining<'p> {
+    /// No node is allowed.
     pub(super) fn new(problem: &'p Problem) -> Self {
         let nodes = problem.movable() + 1;
         let mut chain = Self {
@@ -41,7 +41,7 @@ impl<'p> Chain<'p> {
             allowed: vec![false; nodes],
             graspable: vec![false; nodes],
             trail: Vec::new(),
-            drawn: 0,
+            propagated: 0,
             work: nodes + problem.rules(),
         };
         for rule in 0..u32::try_from(problem.rules()).unwrap_or(u32::MAX) {
@@ -54,19 +54,19 @@ impl<'p> Chain<'p> {
         chain
     }
 
-    /// Let a node be moved, and draw the consequences.
+    /// Allows a node and propagates.
     pub(super) fn allow(&mut self, node: Node) {
         if core::mem::replace(&mut self.allowed[node as usize], true) {
             return;
         }
         self.work += 1;
-        self.trail.push(Event::Allowed(node));
+        self.trail.push(Change::Allowed(node));
         if self.graspable[node as usize] {
-            self.trail.push(Event::Moved(node));
+            self.trail.push(Change::Moved(node));
         }
-        while let Some(&event) = self.trail.get(self.drawn) {
-            self.drawn += 1;
-            if let Event::Moved(node) = event {
+        while let Some(&change) = self.trail.get(self.propagated) {
+            self.propagated += 1;
+            if let Change::Moved(node) = change {
                 self.unblock(node);
             }
         }
@@ -86,13 +86,13 @@ impl<'p> Chain<'p> {
         if core::mem::replace(&mut self.graspable[node as usize], true) {
             return;
         }
-        self.trail.push(Event::Graspable(node));
+        self.trail.push(Change::Graspable(node));
         if self.allowed[node as usize] {
-            self.trail.push(Event::Moved(node));
+            self.trail.push(Change::Moved(node));
         }
     }
 
-    /// Steps of a [`Pace`](super::pace::Pace) for what was done since this was asked last.
+    /// Steps of a [`Ticker`](super::ticker::Ticker) for the work since the last call.
     pub(super) fn steps(&mut self) -> usize {
         let steps = self.work / RULES_A_STEP;
         self.work %= RULES_A_STEP;
@@ -103,19 +103,19 @@ impl<'p> Chain<'p> {
         Mark(self.trail.len())
     }
 
-    /// Back to how it was at the mark.
+    /// Undoes everything since the mark.
     pub(super) fn undo(&mut self, mark: Mark) {
-        for event in self.trail.drain(mark.0..).rev() {
-            match event {
-                Event::Allowed(node) => self.allowed[node as usize] = false,
-                Event::Graspable(node) => self.graspable[node as usize] = false,
-                Event::Moved(node) => {
+        for change in self.trail.drain(mark.0..).rev() {
+            match change {
+                Change::Allowed(node) => self.allowed[node as usize] = false,
+                Change::Graspable(node) => self.graspable[node as usize] = false,
+                Change::Moved(node) => {
                     self.work += self.problem.condition_of(node).len();
                     self.problem.condition_of(node).iter().for_each(|&rule| self.standing[rule as usize] += 1);
                 }
             }
         }
-        self.drawn = self.trail.len();
+        self.propagated = self.trail.len();
     }
 
     /// True if the target can be grasped.
@@ -131,23 +131,23 @@ impl<'p> Chain<'p> {
         self.graspable[node as usize]
     }
 
-    /// Graspable, but not allowed to be moved: the only nodes whose permission changes anything.
+    /// True for a graspable node that is not allowed. Only such nodes, once allowed, change anything.
     pub(super) fn is_frontier(&self, node: Node) -> bool {
         self.graspable[node as usize] && !self.allowed[node as usize]
     }
 
-    /// What was moved, in order.
+    /// The moved nodes, in order.
     pub(super) fn moved(&self) -> impl Iterator<Item = Node> + '_ {
-        self.trail.iter().filter_map(|event| match event {
-            Event::Moved(node) => Some(*node),
+        self.trail.iter().filter_map(|change| match change {
+            Change::Moved(node) => Some(*node),
             _ => None,
         })
     }
 
-    /// What became graspable since the mark.
+    /// The nodes that became graspable since the mark.
     pub(super) fn graspable_since(&self, mark: Mark) -> impl Iterator<Item = Node> + '_ {
-        self.trail[mark.0..].iter().filter_map(|event| match event {
-            Event::Graspable(node) => Some(*node),
+        self.trail[mark.0..].iter().filter_map(|change| match change {
+            Change::Graspable(node) => Some(*node),
             _ => None,
         })
     }

@@ -1,31 +1,31 @@
-//! Depth-first search, with the open questions in a list of their own rather than on the stack.
+//! Depth-first branch and bound, with the open questions in a list rather than on the stack.
 //!
-//! An instance takes memory, and a search may be as deep as there are elements. What goes past the limit is forgotten, the
-//! oldest first: those are large and seldom come up again. When one does, all that led to it is looked at again.
+//! Instances take memory, and a search may be as deep as there are elements. Past the memory limit the oldest instances
+//! are forgotten: they are large and their turn seldom comes. When it does, they are computed again from the root.
 
 use super::branch::{Question, Sight, look};
 use super::fork::{Fork, Next, Parts};
 use super::instance::{Decided, Instance};
-use super::prices::{raise, share};
+use super::multipliers::{initialise, raise};
 use super::reduce::reduce;
-use super::{Cut, Found, Stop};
+use super::{Cut, Solution, Stop};
 use crate::budget::Interrupted;
-use crate::search::pace::Pace;
 use crate::search::problem::Node;
+use crate::search::ticker::Ticker;
 
-/// Rounds for the prices of a part that begins without any.
+/// Subgradient rounds for a part at the root, which inherits no multipliers.
 const FIRST_ROUNDS: usize = 100;
 
-/// How far a search may go.
+/// The limits of one search.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::search) struct Allowance {
-    /// Choices, counted down.
+    /// Choices left; counted down.
     pub(in crate::search) choices: usize,
-    /// Memory of the open questions, in words, but for the last one's.
+    /// Memory of the open questions without the last one, in words.
     pub(in crate::search) words: usize,
 }
 
-/// A least set that meets every landmark, if it has fewer than `limit` members.
+/// A least hitting set of all landmarks, if it has fewer than `limit` members.
 ///
 /// # Errors
 /// [`Cut`] when the budget ends or the choices are spent.
@@ -33,12 +33,12 @@ pub(in crate::search) fn least(
     landmarks: &[Vec<Node>],
     limit: usize,
     allowance: &mut Allowance,
-    pace: &mut Pace<'_>,
-) -> Result<Found, Cut> {
-    let root = Root::new(landmarks, limit, pace).map_err(|Interrupted| Cut { bound: 0, stop: Stop::Interrupted })?;
+    ticker: &mut Ticker<'_>,
+) -> Result<Solution, Cut> {
+    let root = Root::new(landmarks, limit, ticker).map_err(|Interrupted| Cut { bound: 0, stop: Stop::Interrupted })?;
     let bound = root.bound();
     let Some(fork) = root.fork(limit) else { return Ok(None) };
-    let mut search = Search { landmarks, limit, allowance, pace, open: Vec::new(), words: 0, forgotten: 0 };
+    let mut search = BranchAndBound { landmarks, limit, allowance, ticker, open: Vec::new(), words: 0, forgotten: 0 };
     let found = search.run(fork).map_err(|stop| Cut { bound, stop })?;
     Ok(found.map(|mut found| {
         found.sort_unstable();
@@ -46,43 +46,43 @@ pub(in crate::search) fn least(
     }))
 }
 
-/// No set of fewer members meets every landmark; found without any choice.
+/// A lower bound on the size of a hitting set, found without branching.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub(in crate::search) fn bound(
     landmarks: &[Vec<Node>],
     limit: usize,
-    pace: &mut Pace<'_>,
+    ticker: &mut Ticker<'_>,
 ) -> Result<usize, Interrupted> {
-    Ok(Root::new(landmarks, limit, pace)?.bound())
+    Ok(Root::new(landmarks, limit, ticker)?.bound())
 }
 
-/// Where a search begins.
+/// The root: reduced, split into parts and bounded.
 struct Root {
     decided: Decided,
     parts: Vec<Instance>,
-    /// Per part how many elements it needs at least.
+    /// Per part a lower bound.
     bounds: Vec<usize>,
-    /// True if the budget ended before the prices were raised.
+    /// True if the budget ended before the multipliers were raised.
     cut: bool,
 }
 
 impl Root {
-    fn new(landmarks: &[Vec<Node>], limit: usize, pace: &mut Pace<'_>) -> Result<Self, Interrupted> {
-        let (mut instance, mut decided) = (Instance::read(landmarks, pace)?, Decided::default());
-        // No landmark is empty, so each can be met.
-        reduce(&mut instance, &mut decided, pace)?;
-        pace.step(instance.steps())?;
+    fn new(landmarks: &[Vec<Node>], limit: usize, ticker: &mut Ticker<'_>) -> Result<Self, Interrupted> {
+        let (mut instance, mut decided) = (Instance::read(landmarks, ticker)?, Decided::default());
+        // No landmark is empty, so `reduce` never fails here.
+        reduce(&mut instance, &mut decided, ticker)?;
+        ticker.step(instance.steps())?;
         let mut parts = instance.parts();
         let mut cut = false;
-        let price = |part: &mut Instance| {
-            share(part);
-            let worth = raise(part, limit, FIRST_ROUNDS, pace);
-            cut |= worth.is_err();
-            worth.unwrap_or_else(|reached| reached).bound()
+        let bound = |part: &mut Instance| {
+            initialise(part);
+            let lagrangian = raise(part, limit, FIRST_ROUNDS, ticker);
+            cut |= lagrangian.is_err();
+            lagrangian.unwrap_or_else(|reached| reached).bound()
         };
-        let bounds = parts.iter_mut().map(price).collect();
+        let bounds = parts.iter_mut().map(bound).collect();
         Ok(Self { decided, parts, bounds, cut })
     }
 
@@ -90,23 +90,23 @@ impl Root {
         self.decided.count() + self.bounds.iter().sum::<usize>()
     }
 
-    /// `None` if what is decided is no fewer than `limit`.
+    /// `None` if `limit` or more elements are decided.
     fn fork(self, limit: usize) -> Option<Box<Fork>> {
         let Self { decided, parts, bounds, .. } = self;
         (decided.count() < limit).then(|| Box::new(Fork::Parts(Parts::new(decided, parts, bounds, limit))))
     }
 }
 
-struct Search<'s, 'b> {
+struct BranchAndBound<'s, 'b> {
     landmarks: &'s [Vec<Node>],
     limit: usize,
     allowance: &'s mut Allowance,
-    pace: &'s mut Pace<'b>,
-    /// Each waits for the one after it.
+    ticker: &'s mut Ticker<'b>,
+    /// The open questions; each waits for the one after it.
     open: Vec<Waiting>,
-    /// What all instances of these take.
+    /// Memory of their instances.
     words: usize,
-    /// So many of them, the oldest, have no instance left.
+    /// The number of the oldest ones whose instances were forgotten.
     forgotten: usize,
 }
 
@@ -116,14 +116,14 @@ struct Waiting {
     limit: usize,
 }
 
-impl Search<'_, '_> {
-    fn run(&mut self, root: Box<Fork>) -> Result<Found, Stop> {
+impl BranchAndBound<'_, '_> {
+    fn run(&mut self, root: Box<Fork>) -> Result<Solution, Stop> {
         let mut next = self.wait(root, self.limit);
         loop {
             next = match next {
                 Next::Ask { limit } => {
                     let question = self.question(limit)?;
-                    match look(question, &mut self.allowance.choices, self.pace)? {
+                    match look(question, &mut self.allowance.choices, self.ticker)? {
                         Sight::Answer(found) => self.last().next(found),
                         Sight::Fork(fork) => self.wait(fork, limit),
                     }
@@ -169,9 +169,9 @@ impl Search<'_, '_> {
         Ok(Question { instance, limit, reduced })
     }
 
-    /// Bring back the instances of the last question by asking all before it again, with what is known of them now.
+    /// Computes the instances of the last question again, by replaying the path from the root to it.
     fn recall(&mut self) -> Result<(), Stop> {
-        let root = Root::new(self.landmarks, self.limit, self.pace)?;
+        let root = Root::new(self.landmarks, self.limit, self.ticker)?;
         if root.cut {
             return Err(Stop::Interrupted);
         }
@@ -185,7 +185,7 @@ impl Search<'_, '_> {
             before.forget();
             let question = Question { instance, limit, reduced };
             // Its choices have been counted.
-            match look(question, &mut usize::MAX.clone(), self.pace)? {
+            match look(question, &mut usize::MAX.clone(), self.ticker)? {
                 Sight::Fork(fork) => again = fork,
                 Sight::Answer(_) => unreachable!("a question that waited waits again"),
             }

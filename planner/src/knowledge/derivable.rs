@@ -1,43 +1,44 @@
-//! What follows from a knowledge base: forward chaining with a counter per rule (Dowling & Gallier 1984), linear in the
-//! size of the base.
+//! Derivable objects: forward chaining over a knowledge base with a counter per rule (Dowling & Gallier 1984), linear
+//! in the size of the base.
 
 use super::base::KnowledgeBase;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
-/// What can be relocated, in an order in which it can.
+/// The objects that can be grasped, in an order in which they can.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Closure {
+pub struct Derivable {
     /// The derived objects, each after all of one of its options.
     pub order: Vec<ObjectIndex>,
     /// Per object whether it is derived.
     pub derived: Vec<bool>,
 }
 
-/// Relocate all that can be relocated, except what is `held`: that stays even where it could be grasped.
+/// Chains forward: relocates every graspable object that is not `held`. A held object can be derived too, but stays
+/// where it is, so nothing follows from it.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub fn close(
+pub fn derivable(
     base: &KnowledgeBase,
     held: impl Fn(ObjectIndex) -> bool,
     budget: &Budget<'_>,
-) -> Result<Closure, Interrupted> {
+) -> Result<Derivable, Interrupted> {
     let condition_of = ConditionOf::new(base);
     budget.check()?;
     let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
-    let mut closure = Closure { order: Vec::new(), derived: vec![false; base.len()] };
+    let mut derivable = Derivable { order: Vec::new(), derived: vec![false; base.len()] };
     for object in base.objects() {
         for rule in base.rules_of(object) {
             missing.push(u32::try_from(base.body(rule).len()).unwrap_or(u32::MAX));
         }
         if base.options(object).any(<[_]>::is_empty) {
-            closure.derive(object);
+            derivable.derive(object);
         }
     }
     budget.check()?;
     let mut at = 0;
-    while let Some(&object) = closure.order.get(at) {
+    while let Some(&object) = derivable.order.get(at) {
         at += 1;
         if at % 64 == 0 {
             budget.check()?;
@@ -48,14 +49,14 @@ pub fn close(
         for &(rule, head) in condition_of.rules(object) {
             missing[rule as usize] -= 1;
             if missing[rule as usize] == 0 {
-                closure.derive(head);
+                derivable.derive(head);
             }
         }
     }
-    Ok(closure)
+    Ok(derivable)
 }
 
-impl Closure {
+impl Derivable {
     fn derive(&mut self, object: ObjectIndex) {
         if !core::mem::replace(&mut self.derived[object.get()], true) {
             self.order.push(object);

@@ -1,9 +1,9 @@
-//! How often the search looks at its budget.
+//! A counting ticker: the search looks at its budget once in so many steps.
 
 use crate::budget::{Budget, Incumbent, Interrupted};
 
-/// Counts steps and asks the budget now and then: reading a clock costs as much as some steps do.
-pub(super) struct Pace<'a> {
+/// Counts steps and looks at the budget once in a while, since reading a clock costs as much as several steps.
+pub(super) struct Ticker<'a> {
     budget: &'a Budget<'a>,
     left: usize,
 }
@@ -11,18 +11,18 @@ pub(super) struct Pace<'a> {
 /// Steps between two looks, some 50 µs.
 const BEAT: usize = 100;
 
-impl<'a> Pace<'a> {
-    /// One that asks at its first step.
+impl<'a> Ticker<'a> {
+    /// A ticker that looks at the budget at its first step.
     pub(super) fn new(budget: &'a Budget<'a>) -> Self {
         Self { budget, left: 0 }
     }
 
-    /// Another one on the same budget.
+    /// Another ticker on the same budget.
     pub(super) fn another(&self) -> Self {
         Self::new(self.budget)
     }
 
-    /// Account for so many steps, of about half a microsecond each.
+    /// Counts `steps` of about half a microsecond each.
     ///
     /// # Errors
     /// [`Interrupted`] if a look was due and the budget has ended.
@@ -35,7 +35,7 @@ impl<'a> Pace<'a> {
         self.budget.check()
     }
 
-    /// Tell whoever watches how far the search has come.
+    /// Reports the best set and the bound to the observer.
     pub(super) fn note(&self, cost: usize, lower_bound: usize) {
         self.budget.note(Incumbent { cost, lower_bound });
     }
@@ -49,13 +49,13 @@ pub(super) mod tests {
     use super::*;
     use crate::budget::Clock;
     use crate::scene::ObjectIndex;
-    use crate::search::chain::Chain;
+    use crate::search::forward_chaining::ForwardChaining;
     use crate::search::landmark::extract;
     use crate::search::problem::Problem;
     use crate::search::tests::base;
     use crate::search::{Outcome, Restriction, least};
 
-    /// Counts how often it is asked.
+    /// A clock that counts the looks at it.
     struct Counting(Cell<usize>);
 
     impl Clock for Counting {
@@ -69,7 +69,7 @@ pub(super) mod tests {
         }
     }
 
-    /// How often some work looks at its budget.
+    /// The number of looks at the budget that `work` takes.
     pub(in crate::search) fn looks(work: impl FnOnce(&Budget<'_>)) -> usize {
         let clock = Counting(Cell::new(0));
         work(&Budget::new(&clock, Duration::MAX));
@@ -78,7 +78,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
-        // 200 objects are free, and each is asked for by `width` others, together with the last one, which never comes.
+        // 200 objects are free, and each is in the bodies of `width` others, together with the last one, which is never
+        // derived.
         let extracted = |width: usize| {
             let last = 201 + width;
             let mut options = vec![vec![vec![last]]];
@@ -87,10 +88,10 @@ pub(super) mod tests {
             options.push(vec![]);
             let objects = (1..options.len()).chain([0]).map(ObjectIndex::new).collect();
             let unlimited = Budget::unlimited();
-            let problem = Problem::over(&base(&options), objects, |_| true, &mut Pace::new(&unlimited)).unwrap();
+            let problem = Problem::over(&base(&options), objects, |_| true, &mut Ticker::new(&unlimited)).unwrap();
             looks(|budget| {
-                let mut chain = Chain::new(&problem);
-                let landmark = extract(&problem, &mut chain, problem.target(), &mut Pace::new(budget));
+                let mut chain = ForwardChaining::new(&problem);
+                let landmark = extract(&problem, &mut chain, problem.target(), &mut Ticker::new(budget));
                 assert_eq!(landmark, Ok(vec![]));
             })
         };
