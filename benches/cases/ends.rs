@@ -44,7 +44,9 @@ fn once(
     moment: Duration,
 ) -> Option<(Instant, Instant)> {
     let own = Arc::clone(request);
-    let plan = move |budget: &singulate_planner::budget::Budget<'_>| Engine::default().answer(&own, budget).is_ok();
+    let plan = move |budget: &singulate_planner::budget::Budget<'_>| {
+        Engine::default().answer(&own, budget, singulate_planner::search::SILENT).is_ok()
+    };
     let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("room");
     thread::sleep(moment);
     if pool.idle() == 1 {

@@ -14,15 +14,6 @@ pub trait Clock {
     }
 }
 
-/// The progress of the search for the least set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Incumbent {
-    /// The size of the best set known.
-    pub cost: usize,
-    /// No set is smaller.
-    pub lower_bound: usize,
-}
-
 /// A clock that stands still: nothing is ever interrupted. For tests, benches and callers without a limit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Unlimited;
@@ -47,37 +38,17 @@ pub struct Interrupted;
 pub struct Budget<'a> {
     clock: &'a dyn Clock,
     deadline: Duration,
-    observer: Option<&'a dyn Fn(Incumbent)>,
 }
 
 impl<'a> Budget<'a> {
     /// `deadline` counts from the same instant as the clock: the arrival of the request.
     pub fn new(clock: &'a dyn Clock, deadline: Duration) -> Self {
-        Self { clock, deadline, observer: None }
+        Self { clock, deadline }
     }
 
     /// A budget that never ends.
     pub fn unlimited() -> Budget<'static> {
-        Budget { clock: &Unlimited, deadline: Duration::MAX, observer: None }
-    }
-
-    /// The same budget, with an observer of the search's progress.
-    #[must_use]
-    pub fn observed(self, observer: &'a dyn Fn(Incumbent)) -> Self {
-        Self { observer: Some(observer), ..self }
-    }
-
-    /// The same budget without an observer, for searches beside the main one.
-    #[must_use]
-    pub fn unobserved(self) -> Self {
-        Self { observer: None, ..self }
-    }
-
-    /// Reports progress to the observer. It may be called often: the observer drops repetitions.
-    pub fn note(&self, incumbent: Incumbent) {
-        if let Some(observer) = self.observer {
-            observer(incumbent);
-        }
+        Budget { clock: &Unlimited, deadline: Duration::MAX }
     }
 
     /// # Errors
@@ -108,6 +79,58 @@ impl<'a> Budget<'a> {
 
     fn spent(&self) -> Duration {
         self.clock.elapsed().saturating_add(self.clock.withdrawn())
+    }
+}
+
+/// Counts steps and looks at the budget once in a while, since reading a clock costs as much as several steps.
+pub struct Ticker<'a> {
+    budget: &'a Budget<'a>,
+    /// Steps between two looks.
+    beat: usize,
+    left: usize,
+}
+
+/// Steps between two looks where nothing else is said, some 50 µs.
+const BEAT: usize = 100;
+
+impl<'a> Ticker<'a> {
+    /// A ticker that looks at the budget at its first step.
+    pub fn new(budget: &'a Budget<'a>) -> Self {
+        Self { budget, beat: BEAT, left: 0 }
+    }
+
+    /// The same, with its first look after `beat` steps, and as many between two looks.
+    pub fn every(beat: usize, budget: &'a Budget<'a>) -> Self {
+        Self { budget, beat, left: beat }
+    }
+
+    /// Another ticker on the same budget.
+    #[must_use]
+    pub fn another(&self) -> Self {
+        Self { left: 0, ..*self }
+    }
+
+    /// Counts `steps` of about half a microsecond each.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if a look was due and the budget has ended.
+    pub fn step(&mut self, steps: usize) -> Result<(), Interrupted> {
+        match self.left.checked_sub(steps) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => self.look(),
+        }
+    }
+
+    /// Looks at the budget now.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if it has ended.
+    pub fn look(&mut self) -> Result<(), Interrupted> {
+        self.left = self.beat;
+        self.budget.check()
     }
 }
 
@@ -169,17 +192,5 @@ mod tests {
         assert_eq!(budget.elapsed(), Duration::from_millis(4));
         assert_eq!(budget.share(0.5).remaining(), Duration::from_micros(500));
         assert_eq!(Budget::new(&clock, Duration::from_millis(9)).check(), Err(Interrupted));
-    }
-
-    #[test]
-    fn only_an_observed_budget_reports_progress() {
-        let told = core::cell::Cell::new(None);
-        let observer = |incumbent| told.set(Some(incumbent));
-        let budget = Budget::unlimited().observed(&observer);
-        let incumbent = Incumbent { cost: 3, lower_bound: 2 };
-        budget.share(0.5).unobserved().note(incumbent);
-        assert_eq!(told.take(), None);
-        budget.share(0.5).note(incumbent);
-        assert_eq!(told.take(), Some(incumbent));
     }
 }

@@ -15,6 +15,7 @@ use crate::wire::{
 };
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::known;
+use singulate_planner::search::SILENT;
 
 /// Give every body of the document its example; that of `SceneBody` is there already.
 pub(super) fn add(document: &mut OpenApi) {
@@ -73,7 +74,7 @@ impl Answers {
     fn to(scene: &Value) -> Self {
         let (engine, budget, limits) = (Engine::default(), Budget::unlimited(), RequestLimits::default());
         let request = read_scene(scene.to_string().as_bytes(), &limits).expect("the example is a scene");
-        let answer = (engine.plan)(&request.scene, &request.settings, &budget).expect("the example is planned");
+        let answer = (engine.plan)(&request.scene, &request.settings, &budget, SILENT).expect("the example is planned");
         let statistics = StatisticsBody { knowledge_ms: 0.04, search_ms: 0.01, placement_ms: 0.2, check_ms: 0.02 };
         let plan = value(&AnswerBody { statistics, ..AnswerBody::new(&request, &answer) });
         let survey = (engine.survey)(&request.scene, &budget).expect("the example is surveyed");

@@ -10,6 +10,7 @@ use crate::wire::{
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::NoBase;
 use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict, known};
+use singulate_planner::search::SILENT;
 
 /// What must move so that the target can be grasped.
 #[derive(Debug, Clone, Copy)]
@@ -35,7 +36,7 @@ impl Computation for Plan {
     }
 
     fn compute(self, tools: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
-        let answer = tools.engine.answer(request, budget)?;
+        let answer = tools.engine.answer(request, budget, SILENT)?;
         tools.metrics.planned(&answer);
         self.write(request, &answer)
     }

@@ -6,12 +6,13 @@ use singulate_planner::budget::Budget;
 use singulate_planner::plan::check::{self, Report};
 use singulate_planner::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 
 /// The computations. The default is the planner; a test may stand in another.
 #[derive(Clone, Copy)]
 pub struct Engine {
     /// Plan for the scene's target.
-    pub plan: fn(&Scene, &Settings, &Budget<'_>) -> Result<Answer, PlanError>,
+    pub plan: fn(&Scene, &Settings, &Budget<'_>, Progress<'_>) -> Result<Answer, PlanError>,
     /// Every movable object as the target.
     pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
     /// Check a stated answer.
@@ -20,7 +21,7 @@ pub struct Engine {
 
 impl Default for Engine {
     fn default() -> Self {
-        Self { plan: plan::plan, survey: plan::survey, check: check::check }
+        Self { plan: plan::plan_reporting, survey: plan::survey, check: check::check }
     }
 }
 
@@ -29,9 +30,14 @@ impl Engine {
     ///
     /// # Errors
     /// A problem where there is no answer.
-    pub fn answer(&self, request: &PlanRequest, budget: &Budget<'_>) -> Result<Answer, Problem> {
+    pub fn answer(
+        &self,
+        request: &PlanRequest,
+        budget: &Budget<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Answer, Problem> {
         let span = PlanSpan::begin();
-        let answer = (self.plan)(&request.scene, &request.settings, budget);
+        let answer = (self.plan)(&request.scene, &request.settings, budget, progress);
         if let (Some(span), Ok(answer)) = (&span, &answer) {
             span.answered(answer);
         }

@@ -3,7 +3,7 @@
 use super::job::{Event, EventKind, Job, JobState};
 use super::timestamp::Timestamp;
 use crate::wire::{IncumbentBody, JobBody, JobStateWord};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 impl Job {
     /// As it is served.

@@ -11,7 +11,7 @@ use super::end::End;
 use super::store::{Claim, Renewal, Store, StoreError};
 use super::timestamp::{Timestamp, WallClock};
 use super::upkeep::Pause;
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// The least time between two notes of the best so far: nobody reads faster, and each is a write.
 const NOTE_EVERY: Duration = Duration::from_millis(100);

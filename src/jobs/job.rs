@@ -7,7 +7,7 @@ use uuid::Uuid;
 
 use super::timestamp::Timestamp;
 use crate::wire::RawJson;
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// How often a job may be begun. Whatever ended three workers would end a fourth.
 pub const MAX_ATTEMPTS: u32 = 3;

@@ -25,7 +25,7 @@ use super::end::End;
 use super::hints::Hints;
 use super::job::{Job, JobId, JobState, NewJob, Owner};
 use super::timestamp::{Timestamp, WallClock};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// The most events of incumbents of one job; what comes later still is the job's `incumbent`.
 pub const MAX_INCUMBENT_EVENTS: usize = 100;

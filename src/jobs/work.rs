@@ -13,7 +13,8 @@ use crate::computation::Engine;
 use crate::metrics::{Ended, Metrics, milliseconds};
 use crate::wire::{AnswerBody, Glance, Problem, RequestLimits, read_job};
 use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
-use singulate_planner::budget::{Budget, Incumbent};
+use singulate_planner::budget::Budget;
+use singulate_planner::search::{Incumbent, Progress};
 
 /// The store has seen to the turns of owners; a job that it gave is not to wait for another's.
 const WORKER: &str = "worker";
@@ -54,7 +55,7 @@ impl Work {
             let observer = |incumbent| {
                 watcher.send_if_modified(|last| last.replace(incumbent) != Some(incumbent));
             };
-            match plan(&own, &tools, &budget.observed(&observer)) {
+            match plan(&own, &tools, budget, &observer) {
                 Ok(answer) => (&answer).into(),
                 Err(problem) => problem.into(),
             }
@@ -89,10 +90,10 @@ impl Work {
     }
 }
 
-fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>) -> Result<AnswerBody, Problem> {
+fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>, progress: Progress<'_>) -> Result<AnswerBody, Problem> {
     // It was read before it was accepted; but that may have been another version, with other limits.
     let request = read_job(body, &tools.limits)?.plan;
-    let answer = tools.engine.answer(&request, budget)?;
+    let answer = tools.engine.answer(&request, budget, progress)?;
     tools.metrics.planned(&answer);
     Ok(AnswerBody::new(&request, &answer))
 }

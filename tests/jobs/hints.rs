@@ -1,7 +1,7 @@
 //! Who is woken by what.
 
 use singulate::jobs::{End, NewJob, Watcher};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 use tokio::sync::Notify;
 use tokio::time::timeout;
 

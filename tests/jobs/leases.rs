@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use singulate::jobs::{Claim, End, EventKind, JobState, MAX_ATTEMPTS, Renewal, Store, Swept};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, claimed, job, seen, submitted};
 

@@ -1,7 +1,7 @@
 //! What a job is from its beginning to its end.
 
 use singulate::jobs::{Counts, End, Event, EventKind, Job, JobState, MAX_INCUMBENT_EVENTS, NewJob, Page};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, bob, claimed, job, seen, submitted};
 

@@ -4,7 +4,7 @@ use core::cmp::Reverse;
 
 use singulate::jobs::{Claim, Event, EventKind, Job, JobId, JobState, MAX_ATTEMPTS, NewJob, Owner, Swept, Timestamp};
 use singulate::wire::RawJson;
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 use crate::home::{LEASE, TTL};
 

@@ -10,7 +10,7 @@ use singulate::jobs::{
     Cancellation, Claim, End, Job, JobId, JobSettings, JobState, NewJob, Owner, Page, Removal, Renewal, Store,
     SubmitError, Swept, Timestamp, open,
 };
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, bob, job};
 use crate::model::{Model, Refusal};

@@ -8,7 +8,7 @@ use futures_util::future::{ready, select};
 use singulate::jobs::{
     Claim, Delivery, End, EventKind, Job, JobId, JobState, NewJob, Renewal, Store, Swept, WallClock,
 };
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 use sqlx::{Connection, PgConnection, SqliteConnection};
 use tokio::time::{Instant, sleep};
 

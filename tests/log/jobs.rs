@@ -11,6 +11,7 @@ use singulate::workers::Draining;
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 use tokio::time::sleep;
 use tokio_util::sync::CancellationToken;
 
@@ -127,7 +128,7 @@ async fn a_job_that_fails_says_why_in_its_line() {
 
 /// A planner that goes on until its budget ends.
 fn endless() -> Engine {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{KnowledgeBase, derivable};
 use singulate_planner::scene::ObjectIndex;
-use singulate_planner::search::{Memory, Outcome, Restriction, least_within};
+use singulate_planner::search::{Memory, Outcome, Restriction, SILENT, least_within};
 
 #[derive(Deserialize)]
 struct Case {
@@ -35,7 +35,7 @@ fn solve_all(memory: &Memory) {
             .map(|options| options.iter().map(|option| option.iter().map(|id| index[id.as_str()]).collect()).collect())
             .collect();
         let target = index[case.target.as_str()];
-        match least_within(memory, &base, target, &Restriction::default(), &Budget::unlimited()) {
+        match least_within(memory, &base, target, &Restriction::default(), &Budget::unlimited(), SILENT) {
             Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
             Outcome::Least(found) => {
                 assert_eq!(Some(found.bound), case.expected.relocations, "{}", case.name);

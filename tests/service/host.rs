@@ -13,6 +13,7 @@ use singulate::jobs::{client_builder, trusted_roots};
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
@@ -153,7 +154,7 @@ pub(crate) async fn read_to_end(mut stream: TcpStream) -> String {
 
 /// A planner that goes on until its budget ends.
 pub(crate) fn endless() -> Engine {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }

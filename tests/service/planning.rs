@@ -10,6 +10,7 @@ use singulate_planner::budget::Budget;
 use singulate_planner::plan::check::Report;
 use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 
 use crate::host::{Host, PATIENCE, raw_plan, scene, wait_until};
 
@@ -33,7 +34,12 @@ pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Re
 /// A planner that runs until its budget ends, with a counter of its own.
 macro_rules! endless {
     ($running:ident) => {{
-        fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+        fn plan(
+            _: &Scene,
+            _: &Settings,
+            budget: &Budget<'_>,
+            _: singulate_planner::search::Progress<'_>,
+        ) -> Result<Answer, PlanError> {
             wait_for_the_end(&$running, budget)
         }
         Engine { plan, ..Engine::default() }
@@ -97,7 +103,7 @@ async fn waiting_for_a_thread_counts_towards_the_time_limit() {
 
 #[tokio::test]
 async fn a_planner_that_forgets_the_time_is_not_waited_for() {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         // Far past the deadline, until the handler gives up and cancels.
         while budget.elapsed() < Duration::from_secs(2) {
             std::thread::sleep(Duration::from_millis(1));
@@ -111,7 +117,7 @@ async fn a_planner_that_forgets_the_time_is_not_waited_for() {
 
 #[tokio::test]
 async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
-    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         panic!("on purpose");
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;
@@ -123,7 +129,7 @@ async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
 
 #[tokio::test]
 async fn an_answer_that_fails_its_check_is_withheld() {
-    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         Err(PlanError::Refused(Report::default()))
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;

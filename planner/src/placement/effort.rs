@@ -1,7 +1,7 @@
 //! Effort: a limit on the places tried. It is counted, not timed, so that the same question always ends at the same
 //! point.
 
-use crate::budget::{Budget, Interrupted};
+use crate::budget::{Budget, Interrupted, Ticker};
 
 /// The effort left, in tried places of about half a microsecond each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,26 +53,22 @@ pub(super) const BEAT: usize = 64;
 /// Spends effort, and looks at the budget once in [`BEAT`] units.
 pub(super) struct EffortMeter<'e> {
     effort: &'e mut Effort,
-    budget: &'e Budget<'e>,
-    /// Effort since the last look at the budget.
-    unwatched: usize,
+    ticker: Ticker<'e>,
 }
 
 impl<'e> EffortMeter<'e> {
     pub(super) fn new(effort: &'e mut Effort, budget: &'e Budget<'e>) -> Self {
-        Self { effort, budget, unwatched: 0 }
+        Self { effort, ticker: Ticker::every(BEAT, budget) }
     }
 
     /// Looks at the budget now.
     pub(super) fn look(&mut self) -> Result<(), Stop> {
-        self.unwatched = 0;
-        Ok(self.budget.check()?)
+        Ok(self.ticker.look()?)
     }
 
     pub(super) fn spend(&mut self, effort: usize) -> Result<(), Stop> {
         let left = u32::try_from(effort).ok().and_then(|effort| self.effort.left.checked_sub(effort));
         self.effort.left = left.ok_or(Stop::Spent)?;
-        self.unwatched += effort;
-        if self.unwatched >= BEAT { self.look() } else { Ok(()) }
+        Ok(self.ticker.step(effort)?)
     }
 }

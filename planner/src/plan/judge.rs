@@ -12,7 +12,7 @@ use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, NoBase, relevant, swept_finger_options};
 use crate::paper::tangent_angles;
 use crate::scene::Scene;
-use crate::search::Derivation;
+use crate::search::{Derivation, SILENT};
 
 /// The share of the time that is left for this; the rest is the checker's.
 const SHARE: f64 = 0.7;
@@ -37,12 +37,12 @@ pub(super) fn judge(
     }
     let Some((base, sought)) = sought else { return verdict };
     let exact = (settings.search != SearchMethod::Landmarks)
-        .then(|| seek(SearchMethod::Landmarks, &base, scene.target(), &budget));
+        .then(|| seek(SearchMethod::Landmarks, &base, scene.target(), &budget, SILENT));
     warnings.extend(exact.as_ref().and_then(|exact| disagreement(&sought, exact)));
     let opinion = if sectors {
         let base = relevant(scene, scene.target(), swept_finger_options, &budget);
         base.map_or_else(Opinion::from, |base| {
-            let sought = seek(SearchMethod::Landmarks, &base, scene.target(), &budget);
+            let sought = seek(SearchMethod::Landmarks, &base, scene.target(), &budget, SILENT);
             opinion(scene, &base, sought, &budget)
         })
     } else {

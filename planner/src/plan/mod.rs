@@ -21,7 +21,7 @@ pub use answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verd
 pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 pub use confirm::PlanError;
 pub use known::{Known, KnownOption, known};
-pub use planner::plan;
+pub use planner::{plan, plan_reporting};
 pub use settings::{GraspModel, PlacementMethod, SearchMethod, Settings};
 pub use sought::{SearchLimits, Sought, seek_within};
 pub use survey::{SurveyEntry, SurveyVerdict, survey};

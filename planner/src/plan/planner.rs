@@ -16,15 +16,14 @@ use crate::knowledge::{KnowledgeBase, NoBase};
 use crate::paper::reposition;
 use crate::placement::Arrangement;
 use crate::scene::Scene;
-use crate::search::Derivation;
+use crate::search::{Derivation, Progress, SILENT};
 
 /// The share of the time after which knowledge and search hand over what they have.
 const SEARCH_SHARE: f64 = 0.6;
 /// The share of the rest after which placement does; the last part is the checker's.
 const PLACEMENT_SHARE: f64 = 0.75;
 
-/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served. Who
-/// observes the budget is told of the best set and the bound, both unchecked and places apart.
+/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
 ///
 /// An answer by the paper's methods is judged by our own afterwards, within the same time: bounds and locks are those of
 /// the swept finger, and what the checker or the exact search has against the answer becomes a warning.
@@ -32,9 +31,21 @@ const PLACEMENT_SHARE: f64 = 0.75;
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if the answer fails its check.
 pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
-    let (observed, budget) = (budget, &budget.unobserved());
+    plan_reporting(scene, settings, budget, SILENT)
+}
+
+/// [`plan`], telling of the best set and the bound as the search finds them: both unchecked, and places apart.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_reporting(
+    scene: &Scene,
+    settings: &Settings,
+    budget: &Budget<'_>,
+    progress: Progress<'_>,
+) -> Result<Answer, PlanError> {
     let statistics = Statistics::default();
-    let mut planner = Planner { scene, settings, observed, budget, statistics, warnings: Vec::new(), sought: None };
+    let mut planner = Planner { scene, settings, budget, progress, statistics, warnings: Vec::new(), sought: None };
     let verdict = planner.verdict()?;
     let Planner { mut statistics, mut warnings, sought, .. } = planner;
     let before = budget.elapsed();
@@ -51,10 +62,8 @@ pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<A
 struct Planner<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
-    /// The budget of the question that was asked.
-    observed: &'a Budget<'a>,
-    /// The same for all questions that come up besides.
     budget: &'a Budget<'a>,
+    progress: Progress<'a>,
     statistics: Statistics,
     warnings: Vec<Warning>,
     /// What the search said and on which base, for whoever judges it.
@@ -64,7 +73,7 @@ struct Planner<'a> {
 impl Planner<'_> {
     fn verdict(&mut self) -> Result<Verdict, PlanError> {
         let started = self.budget.elapsed();
-        let search_budget = self.observed.share(SEARCH_SHARE);
+        let search_budget = self.budget.share(SEARCH_SHARE);
         let base = self.settings.search.base(self.scene, self.settings.grasp_model, &search_budget);
         self.statistics.knowledge = self.since(started);
         let base = match base {
@@ -76,7 +85,7 @@ impl Planner<'_> {
             return graspable_now(self.scene, self.settings.grasp_model.shadow());
         }
         let started = self.budget.elapsed();
-        let sought = seek(self.settings.search, &base, self.scene.target(), &search_budget);
+        let sought = seek(self.settings.search, &base, self.scene.target(), &search_budget, self.progress);
         self.statistics.search = self.since(started);
         let verdict = match &sought {
             Sought::Nothing if self.settings.proven() => self.deadlock(&base),

@@ -6,7 +6,7 @@ use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, NoBase, complete, relevant};
 use crate::paper::{Conclusion, forward_astar, lobs};
 use crate::scene::{ObjectIndex, Scene};
-use crate::search::{Derivation, LeastSet, Outcome, Restriction, least};
+use crate::search::{Derivation, LeastSet, Memory, Outcome, Progress, Restriction, SILENT, least_within};
 
 /// How much the paper's searches may keep in memory.
 #[derive(Debug, Clone, Copy)]
@@ -55,8 +55,14 @@ impl SearchMethod {
 }
 
 /// Search for what frees the target, within the limits of a request.
-pub(super) fn seek(method: SearchMethod, base: &KnowledgeBase, target: ObjectIndex, budget: &Budget<'_>) -> Sought {
-    seek_within(method, base, target, &LIMITS, budget)
+pub(super) fn seek(
+    method: SearchMethod,
+    base: &KnowledgeBase,
+    target: ObjectIndex,
+    budget: &Budget<'_>,
+    progress: Progress<'_>,
+) -> Sought {
+    by_method(method, base, target, &LIMITS, budget, progress)
 }
 
 /// Search for what frees the target.
@@ -67,13 +73,27 @@ pub fn seek_within(
     limits: &SearchLimits,
     budget: &Budget<'_>,
 ) -> Sought {
+    by_method(method, base, target, limits, budget, SILENT)
+}
+
+/// The paper's searches have no incumbents to tell of.
+fn by_method(
+    method: SearchMethod,
+    base: &KnowledgeBase,
+    target: ObjectIndex,
+    limits: &SearchLimits,
+    budget: &Budget<'_>,
+    progress: Progress<'_>,
+) -> Sought {
     match method {
-        SearchMethod::Landmarks => match least(base, target, &Restriction::default(), budget) {
-            Outcome::Least(known) => Sought::Least(known),
-            Outcome::Underivable => Sought::Nothing,
-            Outcome::Interrupted(Some(known)) => Sought::Best(known),
-            Outcome::Interrupted(None) => Sought::TooLate,
-        },
+        SearchMethod::Landmarks => {
+            match least_within(&Memory::default(), base, target, &Restriction::default(), budget, progress) {
+                Outcome::Least(known) => Sought::Least(known),
+                Outcome::Underivable => Sought::Nothing,
+                Outcome::Interrupted(Some(known)) => Sought::Best(known),
+                Outcome::Interrupted(None) => Sought::TooLate,
+            }
+        }
         SearchMethod::Lobs => concluded(lobs(base, target, limits.lobs_members, budget)),
         SearchMethod::ForwardAstar => {
             let words = base.len().div_ceil(64).max(1);

@@ -92,7 +92,7 @@ impl<'p> ForwardChaining<'p> {
         }
     }
 
-    /// Steps of a [`Ticker`](super::ticker::Ticker) for the work since the last call.
+    /// Steps of a [`Ticker`](crate::budget::Ticker) for the work since the last call.
     pub(super) fn steps(&mut self) -> usize {
         let steps = self.work / RULES_A_STEP;
         self.work %= RULES_A_STEP;

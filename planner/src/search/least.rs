@@ -4,11 +4,11 @@ use super::clauses::{Facts, MaxSat};
 use super::forward_chaining::ForwardChaining;
 use super::hitting::{Allowance, Stop};
 use super::memory::Memory;
-use super::outcome::{Derivation, LeastSet, Outcome, Restriction};
+use super::outcome::{Derivation, Incumbent, LeastSet, Outcome, Progress, Restriction, SILENT};
 use super::preprocessing::{Preprocessed, preprocess};
 use super::problem::{Node, Problem};
-use super::ticker::Ticker;
 use super::{hitting, incumbent, landmark, proof};
+use crate::budget::Ticker;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
@@ -21,16 +21,17 @@ const FIRST_TURN: (usize, u64) = (500, 50_000);
 
 /// The least set of objects from which the target follows.
 pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
-    least_within(&Memory::default(), base, target, restriction, budget)
+    least_within(&Memory::default(), base, target, restriction, budget, SILENT)
 }
 
-/// [`least`] with other limits of memory.
+/// [`least`] with other limits of memory, and with somebody who is told how far it has come.
 pub fn least_within(
     memory: &Memory,
     base: &KnowledgeBase,
     target: ObjectIndex,
     restriction: &Restriction,
     budget: &Budget<'_>,
+    progress: Progress<'_>,
 ) -> Outcome {
     let mut ticker = Ticker::new(budget);
     let Preprocessed { problem, fact_landmarks } = match preprocess(base, target, restriction, &mut ticker) {
@@ -53,6 +54,7 @@ pub fn least_within(
     let Ok(mut search) = HittingSetSearch::new(&problem, forced, underived_required, memory, &mut ticker) else {
         return Outcome::Interrupted(None);
     };
+    search.progress = progress;
     match search.run(&mut ticker) {
         Ok(()) => Outcome::Least(search.known(&mut ticker)),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut ticker))),
@@ -62,6 +64,7 @@ pub fn least_within(
 struct HittingSetSearch<'p> {
     problem: &'p Problem,
     memory: &'p Memory,
+    progress: Progress<'p>,
     /// Between two calls only the `forced` nodes are allowed.
     chain: ForwardChaining<'p>,
     /// The nodes in every set: required ones, and landmarks with a single member.
@@ -92,8 +95,18 @@ impl<'p> HittingSetSearch<'p> {
         let best = incumbent::derivation(&mut chain, &best, ticker).unwrap_or(best);
         let bound = forced.len();
         let (landmarks, proven) = (Vec::new(), bound);
-        let mut search =
-            Self { problem, memory, chain, forced, underived_required, landmarks, best: Vec::new(), bound, proven };
+        let mut search = Self {
+            problem,
+            memory,
+            progress: SILENT,
+            chain,
+            forced,
+            underived_required,
+            landmarks,
+            best: Vec::new(),
+            bound,
+            proven,
+        };
         search.best = search.with_forced(best);
         Ok(search)
     }
@@ -110,7 +123,7 @@ impl<'p> HittingSetSearch<'p> {
         // Greedy hitting sets first: they are cheap, and each that fails gives new landmarks.
         let mut bounded_at = self.landmarks.len();
         loop {
-            ticker.note(self.best.len(), self.bound);
+            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
             if self.best.len() <= self.bound {
                 return Ok(());
             }
@@ -145,7 +158,7 @@ impl<'p> HittingSetSearch<'p> {
             };
             let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, ticker));
             self.bound = self.bound.max(by_clauses.bound());
-            ticker.note(self.best.len(), self.bound);
+            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
             if self.best.len() <= self.bound {
                 return Ok(());
             }
@@ -170,7 +183,7 @@ impl<'p> HittingSetSearch<'p> {
     fn settle_by_hitting(&mut self, choices: usize, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
         let mut allowance = Allowance { choices, words: self.memory.words };
         while self.best.len() > self.bound {
-            ticker.note(self.best.len(), self.bound);
+            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
             match self.least_hitting_set(&mut allowance, ticker) {
                 Ok(Some(hit)) => self.learn(&hit, ticker)?,
                 Ok(None) => return Ok(true),

@@ -15,6 +15,8 @@ mod hitting;
 mod incumbent;
 mod landmark;
 mod least;
+#[cfg(test)]
+mod looks;
 mod memory;
 mod outcome;
 mod preprocessing;
@@ -22,9 +24,8 @@ mod problem;
 mod proof;
 #[cfg(test)]
 mod tests;
-mod ticker;
 
 pub use alternatives::Alternatives;
 pub use least::{least, least_within};
 pub use memory::Memory;
-pub use outcome::{Derivation, LeastSet, Outcome, Restriction};
+pub use outcome::{Derivation, Incumbent, LeastSet, Outcome, Progress, Restriction, SILENT};

@@ -35,6 +35,21 @@ pub enum Outcome {
     Interrupted(Option<LeastSet>),
 }
 
+/// How far the search has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Incumbent {
+    /// The size of the best set known.
+    pub cost: usize,
+    /// No set is smaller.
+    pub lower_bound: usize,
+}
+
+/// Is told of every incumbent, of some of them twice.
+pub type Progress<'a> = &'a dyn Fn(Incumbent);
+
+/// Nobody is told.
+pub const SILENT: Progress<'static> = &|_| {};
+
 /// A narrower question, to enumerate sets in order of their size.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Restriction {

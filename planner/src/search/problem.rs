@@ -1,7 +1,7 @@
 //! The Horn rules of one question, densely numbered.
 
-use super::ticker::Ticker;
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 

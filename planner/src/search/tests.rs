@@ -1,9 +1,9 @@
 //! The search against enumeration.
 
 use super::preprocessing::preprocess;
-use super::ticker::Ticker;
-use super::{Alternatives, LeastSet, Outcome, Restriction, least};
+use super::{Alternatives, Incumbent, LeastSet, Memory, Outcome, Restriction, least, least_within};
 use crate::budget::Budget;
+use crate::budget::Ticker;
 use crate::knowledge::{KnowledgeBase, derivable};
 use crate::scene::ObjectIndex;
 use proptest::prelude::*;
@@ -179,6 +179,21 @@ proptest! {
                 prop_assert!(follows(&options, 0, mask(&found.derivation.order)));
                 prop_assert!(found.landmarks.iter().all(|landmark| !follows(&options, 0, !mask(landmark))));
             }
+        }
+    }
+
+    #[test]
+    fn each_incumbent_is_told_and_none_is_worse_than_the_one_before(options in (6_usize..11).prop_flat_map(options)) {
+        let told = core::cell::RefCell::new(Vec::new());
+        let progress = |Incumbent { cost, lower_bound }| told.borrow_mut().push((cost, lower_bound));
+        let (base, unlimited) = (base(&options), Budget::unlimited());
+        let outcome =
+            least_within(&Memory::default(), &base, ObjectIndex::new(0), &Restriction::default(), &unlimited, &progress);
+        let told = told.into_inner();
+        prop_assert!(told.is_sorted_by(|(cost, bound), (next, next_bound)| next <= cost && bound <= next_bound));
+        if let Outcome::Least(found) = outcome {
+            let least = found.derivation.order.len();
+            prop_assert!(told.iter().all(|(cost, bound)| *bound <= least && least <= *cost), "{told:?}");
         }
     }
 

@@ -12,7 +12,7 @@ use super::events;
 use super::herald::News;
 use super::row;
 use crate::jobs::{Claim, End, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// What has to be known of a job before it is changed.
 pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \

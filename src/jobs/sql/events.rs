@@ -3,7 +3,7 @@
 use core::str::FromStr;
 
 use crate::jobs::{Event, EventKind, Timestamp};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 const KINDS: [EventKind; 4] = [EventKind::Queued, EventKind::Running, EventKind::Incumbent, EventKind::Finished];
 

@@ -6,7 +6,7 @@ use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
 use super::events;
 use crate::jobs::{Event, Job, JobId, JobState, Owner, Page, Timestamp};
 use crate::wire::RawJson;
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// What a job is read from, but its result and its place in the queue.
 const COLUMNS: &str = "jobs.id, jobs.state, jobs.scene_id, jobs.scene_sha256, jobs.created_at, jobs.started_at, \

@@ -19,7 +19,7 @@ use crate::jobs::{
     Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
 use crate::metrics::{Metrics, StoreOutcome};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// How long it may take to end what is being written, and to bring a file in order.
 const CLOSING: Duration = Duration::from_secs(3);

@@ -9,7 +9,7 @@ use super::events;
 use super::herald::News;
 use super::row;
 use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 /// The lease begins once the job is ours: another's lock may have kept us waiting.
 pub(super) async fn claim(change: &mut Change<'_>, clock: &WallClock) -> Result<Option<Claimed>, Error> {

@@ -11,6 +11,7 @@ use singulate::jobs::JobSettings;
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::{Answer, PlanError, Settings};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 use tokio::time::sleep;
 
 use super::{others_are_served, served_meanwhile};
@@ -82,11 +83,16 @@ async fn clients_that_close_their_sending_half_hold_up_nobody() {
 
 /// Plans as ever, but never comes to an end with a scene whose first object is so called.
 fn all_but_one_ends() -> Engine {
-    fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(
+        scene: &Scene,
+        settings: &Settings,
+        budget: &Budget<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Answer, PlanError> {
         if scene.objects()[0].id() == "held" {
             return wait_for_the_end(&AtomicUsize::new(0), budget);
         }
-        (Engine::default().plan)(scene, settings, budget)
+        (Engine::default().plan)(scene, settings, budget, progress)
     }
     Engine { plan, ..Engine::default() }
 }

@@ -6,6 +6,7 @@ use singulate::jobs::JobSettings;
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::{Answer, PlanError, Settings};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::Progress;
 
 use super::{crowded, ended, path, submit};
 use crate::host::{Host, PATIENCE, endless, scene};
@@ -56,7 +57,7 @@ async fn a_queued_job_is_cancelled_at_once_and_a_running_one_with_its_best() {
 
 #[tokio::test]
 async fn a_panic_is_one_failed_job_and_its_worker_lives_on() {
-    fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+    fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
         assert!(scene.objects().len() > 2, "on purpose");
         singulate_planner::plan::plan(scene, settings, budget)
     }

@@ -5,10 +5,10 @@ use batsat::Lit;
 use super::solver::Solver;
 use super::unfounded_sets::UnfoundedSets;
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::landmark;
 use crate::search::problem::{Node, Problem};
-use crate::search::ticker::Ticker;
 
 /// The most nodes times rules of a problem for which the landmarks of every node are extracted, which takes some tenths
 /// of a second.

@@ -8,8 +8,8 @@ use super::solver::{Reply, Solver};
 use super::totalizer::Totalizer;
 use super::unfounded_sets::UnfoundedSets;
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::search::problem::Node;
-use crate::search::ticker::Ticker;
 
 /// The most rounds in which a core is trimmed by solving it again.
 const TRIMMING_ROUNDS: usize = 5;

@@ -7,7 +7,7 @@ use batsat::{Callbacks, ClauseKind, Lit, SolverInterface, SolverOpts, lbool};
 
 use super::unfounded_sets::UnfoundedSets;
 use crate::budget::Interrupted;
-use crate::search::ticker::Ticker;
+use crate::budget::Ticker;
 
 /// Learnt clauses that are always kept. On problems this small a deleted clause is soon learnt again.
 const KEPT: i32 = 5000;

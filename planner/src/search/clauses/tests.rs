@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::{Facts, MaxSat};
 use crate::budget::Budget;
+use crate::budget::Ticker;
 use crate::knowledge::derivable;
 use crate::scene::ObjectIndex;
 use crate::search::forward_chaining::ForwardChaining;
@@ -17,7 +18,6 @@ use crate::search::tests::base;
 use crate::search::tests::exhaustive;
 use crate::search::tests::follows;
 use crate::search::tests::options;
-use crate::search::ticker::Ticker;
 use crate::search::{LeastSet, Outcome, Restriction, least};
 
 /// The bound and the size of the best set by MaxSAT alone, with so many conflicts a turn, until both meet or the budget

@@ -5,7 +5,7 @@ use super::instance::{Decided, Instance};
 use super::multipliers::{LagrangianBound, raise};
 use super::reduce::reduce;
 use super::{Solution, Stop};
-use crate::search::ticker::Ticker;
+use crate::budget::Ticker;
 
 /// Subgradient rounds for a part that inherits its multipliers.
 const ROUNDS: usize = 12;

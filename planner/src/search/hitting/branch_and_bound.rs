@@ -10,8 +10,8 @@ use super::multipliers::{initialise, raise};
 use super::reduce::reduce;
 use super::{Cut, Solution, Stop};
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::search::problem::Node;
-use crate::search::ticker::Ticker;
 
 /// Subgradient rounds for a part at the root, which inherits no multipliers.
 const FIRST_ROUNDS: usize = 100;

@@ -4,8 +4,8 @@ use super::branch::most_frequent;
 use super::instance::{Decided, Instance};
 use super::reduce::reduce;
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::search::problem::Node;
-use crate::search::ticker::Ticker;
 
 /// Greedy hitting set: reduce, take the most frequent element, repeat. Landmarks without members are ignored.
 ///

@@ -1,9 +1,9 @@
 //! A hitting set instance as a bit matrix, stored by sets and by elements, with its elementary changes.
 
 use crate::budget::Interrupted;
+use crate::budget::Ticker;
 use crate::search::bits::Bits;
 use crate::search::problem::Node;
-use crate::search::ticker::Ticker;
 
 /// Sets to be hit by as few elements as possible.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@
 //! computes the same bound with its own code.
 
 use super::instance::Instance;
-use crate::search::ticker::Ticker;
+use crate::budget::Ticker;
 
 /// Subtracted before a bound is rounded up: rounding errors add up to far less, and must not lift a whole number to the
 /// next.

@@ -7,10 +7,10 @@ use proptest::prelude::*;
 use super::instance::{Decided, Instance};
 use super::reduce::reduce;
 use super::{Allowance, Stop, bound, greedy, least};
+use crate::budget::Ticker;
 use crate::budget::{Budget, Unlimited};
+use crate::search::looks::looks;
 use crate::search::problem::Node;
-use crate::search::ticker::Ticker;
-use crate::search::ticker::tests::looks;
 
 fn enumerated(sets: &[Vec<Node>], nodes: u32) -> usize {
     (0_u32..1 << nodes)

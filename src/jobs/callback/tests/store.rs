@@ -9,7 +9,7 @@ use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, JobState, NewJob, Owner, Page,
     Removal, Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
 };
-use singulate_planner::budget::Incumbent;
+use singulate_planner::search::Incumbent;
 
 #[derive(Default)]
 pub(super) struct Callbacks {
