@@ -2,11 +2,12 @@
 //! server in this process with the default settings.
 //!
 //! Counted at the client, from the end of its sending to the last byte of the answer, so the way through the loopback is
-//! in it. A thread that sleeps for 10 ms at a time tells how late the machine itself is. Fails where an answer was later
-//! than 50 ms and that thread's 99th percentile together.
+//! in it. Threads that sleep for 10 ms at a time tell how late the machine itself is: up to 20 ms of that, at the very time of
+//! an answer, are taken off its lateness. Fails where more than 50 ms are left, twice in the same row, or where more than
+//! two rows had to be measured a second time.
 //!
 //! And how soon a core is free again once a computation is to end before its time, by a hang-up or for the best so far:
-//! fails where that took longer than 20 ms and the same percentile.
+//! the same with 20 ms.
 
 mod cases;
 #[path = "cases/client.rs"]
@@ -46,6 +47,8 @@ const CLIENTS: [usize; 2] = [1, 8];
 /// Each row repeats its requests for so long, and no more often than that.
 const ROW: Duration = Duration::from_millis(1500);
 const MAX_ROUNDS: u128 = 10;
+/// No more is put down to the machine: a server that keeps every core busy makes the timers late too.
+const MAX_OWN: Duration = Duration::from_millis(20);
 /// So many rows may be measured a second time.
 const MAX_AGAIN: usize = 2;
 /// A name, a scene, and one of the paper's methods where it is to be planned by that.
@@ -128,7 +131,9 @@ impl<'t> Judge<'t> {
         let worst = if first > self.grace {
             println!("^ {:.1} ms late beyond the machine's own; again:", ms(first));
             self.again += 1;
-            self.excess(&measure())
+            let row = measure();
+            // Where nothing was measured the first row counts.
+            if row.is_empty() { first } else { self.excess(&row) }
         } else {
             first
         };
@@ -137,7 +142,7 @@ impl<'t> Judge<'t> {
     }
 
     fn excess(&self, row: &[Late]) -> Duration {
-        let own = |late: &Late| self.timer.during(late.due, late.end);
+        let own = |late: &Late| self.timer.during(late.due, late.end).min(MAX_OWN);
         row.iter().map(|late| late.by().saturating_sub(own(late))).max().unwrap_or_default()
     }
 

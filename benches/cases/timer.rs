@@ -38,12 +38,12 @@ impl Timer {
         p99(&lateness)
     }
 
-    /// The worst between two moments; both have passed.
+    /// The worst part of a lateness that lies between two moments; both have passed.
     #[allow(dead_code, reason = "one of the benches asks for the percentile alone")]
     pub(crate) fn during(&self, from: Instant, to: Instant) -> Duration {
         let ticks = self.ticks();
-        let those = ticks.iter().filter(|tick| tick.end >= from && tick.end - tick.late <= to);
-        those.map(|tick| tick.late).max().unwrap_or_default()
+        let between = |tick: &Tick| tick.end.min(to).saturating_duration_since((tick.end - tick.late).max(from));
+        ticks.iter().map(between).max().unwrap_or_default()
     }
 
     fn ticks(&self) -> MutexGuard<'_, Vec<Tick>> {

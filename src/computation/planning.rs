@@ -112,7 +112,7 @@ impl Planning {
         }
     }
 
-    /// A request that would be refused anyway is refused before its body is read, which costs twice a glance: under overload
+    /// A request that would be refused anyway is refused before its body is read, which costs several times a glance: under overload
     /// most are, and their reading would take the cores from those that are not. The glance, where there was one.
     fn refuse_unread(&self, owner: &str, arrival: Instant, body: &[u8]) -> Result<Option<Glance>, Problem> {
         if self.pool.idle() > 0 {

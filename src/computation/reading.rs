@@ -8,7 +8,7 @@ use super::engine::panicked;
 use super::problem::internal;
 use crate::wire::{Glance, Problem, RequestLimits};
 
-/// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond. Larger ones are read by
+/// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond, faulty ones. Larger ones are read by
 /// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
 /// glance must do, a millisecond for a megabyte.
 pub(super) const SMALL_BODY: usize = 16 * 1024;

@@ -1,7 +1,7 @@
 //! Scene, answer and problem as JSON. No other room knows how they are written.
 //!
-//! A sound body is read straight into drafts. Any other is read as a JSON value and walked, so that faults of shape are told
-//! together with those of meaning, each with its JSON pointer.
+//! A sound scene is read straight into a draft. Any other, and all else, is read as a JSON value and walked, so that faults of
+//! shape are told together with those of meaning, each with its JSON pointer.
 
 mod answer;
 mod claim;

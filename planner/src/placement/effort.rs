@@ -50,7 +50,7 @@ impl From<Interrupted> for Stop {
 /// Units of effort between two looks at the budget, some 30 µs.
 pub(super) const BEAT: usize = 64;
 
-/// Spends effort, and looks at the budget once in [`BEAT`] units.
+/// Spends effort, and looks at the budget after each [`BEAT`] units.
 pub(super) struct EffortMeter<'e> {
     effort: &'e mut Effort,
     ticker: Ticker<'e>,

@@ -59,8 +59,8 @@ struct Surveyor<'a> {
     base: &'a KnowledgeBase,
     derivable: &'a Derivable,
     checker: Checker<'a>,
-    /// What the checker says of the greatest lock, which is one and the same for every object in it.
-    locked: Option<SurveyVerdict>,
+    /// The greatest lock as the checker confirmed it: one and the same for every object in it. Empty where time ran out.
+    locked: Option<Vec<ObjectIndex>>,
 }
 
 impl Surveyor<'_> {
@@ -103,22 +103,28 @@ impl Surveyor<'_> {
 
     fn deadlock(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
         let object = scene.target();
-        let verdict = match self.locked {
-            Some(verdict) => verdict,
-            None => {
-                let lock = greatest_lock(scene, self.base, self.derivable, budget);
-                let verdict =
-                    lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
-                match confirm(&mut self.checker, scene, verdict, budget)? {
-                    Verdict::Deadlock(_) => SurveyVerdict::Deadlock,
-                    _ => SurveyVerdict::TimedOut,
-                }
-            }
+        let holds = |lock: &Vec<ObjectIndex>| lock.binary_search(&object).is_ok();
+        // An object that follows from nothing and is in no confirmed lock gets a check of its own.
+        let lock = match self.locked.take() {
+            Some(lock) if lock.is_empty() || holds(&lock) => lock,
+            _ => self.confirmed_lock(scene, budget)?,
         };
-        self.locked = Some(verdict);
-        Ok(match verdict {
-            SurveyVerdict::Deadlock => SurveyEntry { object, verdict, lower_bound: None, optimal: None },
-            _ => timed_out(object),
+        let lock = self.locked.insert(lock);
+        Ok(if holds(lock) {
+            SurveyEntry { object, verdict: SurveyVerdict::Deadlock, lower_bound: None, optimal: None }
+        } else {
+            timed_out(object)
+        })
+    }
+
+    /// In index order.
+    fn confirmed_lock(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<Vec<ObjectIndex>, PlanError> {
+        let lock = greatest_lock(scene, self.base, self.derivable, budget);
+        let verdict =
+            lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
+        Ok(match confirm(&mut self.checker, scene, verdict, budget)? {
+            Verdict::Deadlock(Some(lock)) => lock.blocked,
+            _ => Vec::new(),
         })
     }
 }

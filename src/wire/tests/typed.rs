@@ -111,6 +111,19 @@ fn each_edit_alone() {
     }
 }
 
+#[test]
+fn a_plan_is_nested_as_deep_as_its_body_may_be() {
+    for deep in 120..135 {
+        let nested = format!("{}{}", "[".repeat(deep), "]".repeat(deep));
+        let plan = format!(r#"{{"relocations": [], "target_grasp": {{"yaw": 1}}, "statistics": {{"\"[": {nested}}}}}"#);
+        let body = format!(r#"{{"plan": {plan}, "scene": {SOUND}}}"#);
+        let limits = RequestLimits::default();
+        let (quick, walked) =
+            (claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits));
+        assert_eq!(quick.is_some(), walked.is_ok(), "{deep}");
+    }
+}
+
 /// Else all would be read the long way, and no test would tell.
 #[test]
 fn sound_bodies_go_the_straight_way() {
