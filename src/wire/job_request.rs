@@ -1,7 +1,5 @@
 //! Requests for jobs read from JSON.
 
-use serde_json::Value;
-
 use super::code::ErrorCode;
 use super::limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, RequestLimits};
 use super::path::Path;
@@ -56,14 +54,7 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, 
 pub fn read_batch(body: &[u8], limits: &RequestLimits) -> Result<Vec<JobRequest>, Problem> {
     let (value, mut faults) = parse(body)?;
     let read = batch(Node::root(&value), limits, &mut faults);
-    let jobs = faults.judge(read)?;
-    let scenes = value.get("scenes").and_then(Value::as_array).into_iter().flatten();
-    // What was just read can be written.
-    Ok(jobs
-        .into_iter()
-        .zip(scenes)
-        .map(|(job, scene)| JobRequest { body: scene.to_string().into_bytes(), ..job })
-        .collect())
+    faults.judge(read)
 }
 
 fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<JobRequest>> {
@@ -90,7 +81,7 @@ fn job(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Jo
     let callback_url =
         fields.optional("callback_url", None, faults, |node, faults| callback_url(node, faults).map(Some));
     let priority = fields.optional("priority", 0, faults, |node, faults| node.integer(PRIORITY_RANGE, faults));
-    Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: Vec::new() })
+    Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: node.source().into() })
 }
 
 fn callback_url(node: Node<'_>, faults: &mut Faults) -> Option<String> {

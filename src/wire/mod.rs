@@ -10,6 +10,7 @@ mod finding;
 mod glance;
 mod job;
 mod job_request;
+mod json;
 mod knowledge;
 mod limits;
 mod malformed;

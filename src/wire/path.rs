@@ -19,8 +19,13 @@ impl<'a> Path<'a> {
         Self::Item(self, position)
     }
 
+    /// As a JSON pointer; that of the whole body where the names in it are too long.
+    pub(super) fn pointer(&self) -> String {
+        if self.named() > MAX_NAMED { String::new() } else { self.to_string() }
+    }
+
     /// Bytes of the names in it.
-    pub(super) fn named(&self) -> usize {
+    fn named(&self) -> usize {
         match self {
             Self::Root => 0,
             Self::Field(parent, name) => parent.named() + name.len(),
@@ -38,6 +43,9 @@ impl fmt::Display for Path<'_> {
         }
     }
 }
+
+/// The longest names that a pointer may hold together, bytes. Each fault has a pointer, and nobody's names are as long.
+const MAX_NAMED: usize = 1000;
 
 /// The most faults that one answer lists: past that nobody reads on.
 pub(super) const MAX_FAULTS: usize = 1000;

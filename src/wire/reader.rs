@@ -2,13 +2,12 @@
 
 use core::fmt;
 
-use serde_json::{Map, Value};
-
 use super::code::ErrorCode;
+use super::json::{Json, Object, Sound};
 use super::malformed::{Places, malformed};
 use super::path::{MAX_FAULTS, Path};
 use super::problem::{ErrorItem, Problem};
-use super::walk::{Repeated, repeats, walk};
+use super::walk::{Repeated, Walk, walk};
 
 /// The faults found so far.
 #[derive(Default)]
@@ -19,7 +18,7 @@ pub(super) struct Faults {
 impl Faults {
     pub(super) fn add(&mut self, code: ErrorCode, path: &Path<'_>, detail: fmt::Arguments<'_>) {
         if self.items.len() < MAX_FAULTS {
-            self.items.push(ErrorItem::new(code, path.to_string(), detail.to_string()));
+            self.items.push(ErrorItem::new(code, path.pointer(), detail.to_string()));
         }
     }
 
@@ -36,28 +35,26 @@ impl Faults {
 ///
 /// # Errors
 /// A problem that names what is no JSON.
-pub(super) fn parse(body: &[u8]) -> Result<(Value, Faults), Problem> {
-    let value = serde_json::from_slice(body).map_err(|error| malformed(body, &error))?;
-    let mut faults = Faults::default();
-    if repeats(body, &value) {
-        let mut places = Places::of(body);
-        faults.items.extend(walk(body).repeated.into_iter().map(|Repeated { name, at, pointer }| {
-            let detail = format!("'{name}' is there a second time, at {}", places.at(at));
-            ErrorItem::new(ErrorCode::RepeatedField, pointer, detail)
-        }));
-    }
-    Ok((value, faults))
+pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, Faults), Problem> {
+    let _: Sound = serde_json::from_slice(body).map_err(|error| malformed(body, &error))?;
+    let Walk { value, repeated, .. } = walk(body);
+    let mut places = Places::of(body);
+    let items = repeated.into_iter().map(|Repeated { name, at, pointer }| {
+        let detail = format!("'{name}' is there a second time, at {}", places.at(at));
+        ErrorItem::new(ErrorCode::RepeatedField, pointer, detail)
+    });
+    Ok((value, Faults { items: items.collect() }))
 }
 
 /// A value and its place.
 #[derive(Clone, Copy)]
 pub(super) struct Node<'a> {
-    value: &'a Value,
+    value: &'a Json<'a>,
     path: &'a Path<'a>,
 }
 
 impl<'a> Node<'a> {
-    pub(super) fn root(value: &'a Value) -> Self {
+    pub(super) fn root(value: &'a Json<'a>) -> Self {
         Self { value, path: &Path::Root }
     }
 
@@ -65,14 +62,19 @@ impl<'a> Node<'a> {
         self.path
     }
 
+    /// The text of an object; empty for anything else.
+    pub(super) fn source(&self) -> &'a str {
+        if let Json::Object(object) = self.value { object.text } else { "" }
+    }
+
     fn wrong_type<T>(&self, expected: &str, faults: &mut Faults) -> Option<T> {
         let found = match self.value {
-            Value::Null => "null",
-            Value::Bool(_) => "a boolean",
-            Value::Number(_) => "a number",
-            Value::String(_) => "a string",
-            Value::Array(_) => "an array",
-            Value::Object(_) => "an object",
+            Json::Null => "null",
+            Json::Bool(_) => "a boolean",
+            Json::Number(_) => "a number",
+            Json::String(_) => "a string",
+            Json::Array(_) => "an array",
+            Json::Object(_) => "an object",
         };
         faults.add(ErrorCode::WrongType, self.path, format_args!("expected {expected}, found {found}"));
         None
@@ -80,29 +82,30 @@ impl<'a> Node<'a> {
 
     /// An object with fields of these names and no others.
     pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
-        let Value::Object(map) = self.value else { return self.wrong_type("an object", faults) };
-        for name in map.keys().filter(|name| !names.known.contains(&name.as_str())).take(MAX_FAULTS) {
+        let Json::Object(object) = self.value else { return self.wrong_type("an object", faults) };
+        let names_there = object.fields.iter().map(|(name, _)| name.as_ref());
+        for name in names_there.filter(|name| !names.known.contains(name)).take(MAX_FAULTS) {
             let path = self.path.field(name);
-            if names.reserved.contains(&name.as_str()) {
+            if names.reserved.contains(&name) {
                 faults.add(ErrorCode::UnknownField, &path, format_args!("this name is reserved for a later version"));
             } else {
                 faults.add(ErrorCode::UnknownField, &path, format_args!("known here: {}", names.known.join(", ")));
             }
         }
-        Some(Fields { map, path: self.path })
+        Some(Fields { object, path: self.path })
     }
 
     /// An object, whatever is in it.
     pub(super) fn any_object(&self, faults: &mut Faults) -> Option<()> {
-        if self.value.is_object() { Some(()) } else { self.wrong_type("an object", faults) }
+        if matches!(self.value, Json::Object(_)) { Some(()) } else { self.wrong_type("an object", faults) }
     }
 
     pub(super) fn number(&self, faults: &mut Faults) -> Option<f64> {
-        let Value::Number(number) = self.value else { return self.wrong_type("a number", faults) };
-        let value = number.as_f64();
+        let Json::Number(number) = self.value else { return self.wrong_type("a number", faults) };
+        let value = number.parse().ok().filter(|value: &f64| value.is_finite());
         if value.is_none() {
             // Only a literal beyond the range of a double has no value.
-            let literal: String = number.as_str().chars().take(40).collect();
+            let literal: String = number.chars().take(40).collect();
             faults.add(
                 ErrorCode::OutOfRange,
                 self.path,
@@ -145,16 +148,16 @@ impl<'a> Node<'a> {
     }
 
     pub(super) fn boolean(&self, faults: &mut Faults) -> Option<bool> {
-        self.value.as_bool().or_else(|| self.wrong_type("a boolean", faults))
+        if let Json::Bool(value) = self.value { Some(*value) } else { self.wrong_type("a boolean", faults) }
     }
 
     pub(super) fn text(&self, faults: &mut Faults) -> Option<String> {
-        self.value.as_str().map(str::to_owned).or_else(|| self.wrong_type("a string", faults))
+        if let Json::String(text) = self.value { Some(text.to_string()) } else { self.wrong_type("a string", faults) }
     }
 
     /// One of a few words.
     pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)], faults: &mut Faults) -> Option<T> {
-        let Value::String(text) = self.value else { return self.wrong_type("a string", faults) };
+        let Json::String(text) = self.value else { return self.wrong_type("a string", faults) };
         let choice = choices.iter().find(|(word, _)| word == text).map(|(_, value)| *value);
         if choice.is_none() {
             let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
@@ -165,7 +168,7 @@ impl<'a> Node<'a> {
 
     /// How many items the list has; 0 for anything else.
     pub(super) fn length(&self) -> usize {
-        self.value.as_array().map_or(0, Vec::len)
+        if let Json::Array(items) = self.value { items.len() } else { 0 }
     }
 
     /// A list. An item that can't be read keeps its place as the default value: its fault has been noted.
@@ -174,12 +177,17 @@ impl<'a> Node<'a> {
         faults: &mut Faults,
         read: impl Fn(Node<'_>, &mut Faults) -> Option<T>,
     ) -> Option<Vec<T>> {
-        let Value::Array(values) = self.value else { return self.wrong_type("an array", faults) };
-        let items = values.iter().enumerate().map(|(position, value)| {
+        let Json::Array(values) = self.value else { return self.wrong_type("an array", faults) };
+        let mut items = Vec::new();
+        for (position, value) in values.iter().enumerate() {
+            if faults.items.len() >= MAX_FAULTS {
+                // Nobody is told of more, and nothing is made of the rest.
+                return None;
+            }
             let path = self.path.item(position);
-            read(Node { value, path: &path }, faults).unwrap_or_default()
-        });
-        Some(items.collect())
+            items.push(read(Node { value, path: &path }, faults).unwrap_or_default());
+        }
+        Some(items)
     }
 }
 
@@ -198,7 +206,7 @@ impl Names {
 /// The fields of an object.
 #[derive(Clone, Copy)]
 pub(super) struct Fields<'a> {
-    map: &'a Map<String, Value>,
+    object: &'a Object<'a>,
     path: &'a Path<'a>,
 }
 
@@ -211,7 +219,7 @@ impl Fields<'_> {
         read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
     ) -> Option<T> {
         let path = self.path.field(name);
-        let Some(value) = self.map.get(name) else {
+        let Some(value) = self.object.get(name) else {
             self.missing(name, faults);
             return None;
         };
@@ -231,8 +239,8 @@ impl Fields<'_> {
         faults: &mut Faults,
         read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
     ) -> Option<T> {
-        match self.map.get(name) {
-            None | Some(Value::Null) => Some(default),
+        match self.object.get(name) {
+            None | Some(Json::Null) => Some(default),
             Some(value) => read(Node { value, path: &self.path.field(name) }, faults),
         }
     }
@@ -249,7 +257,7 @@ impl Fields<'_> {
 
     /// True if the field is there and not null.
     pub(super) fn states(&self, name: &'static str) -> bool {
-        self.map.get(name).is_some_and(|value| !value.is_null())
+        self.object.get(name).is_some_and(|value| !matches!(value, Json::Null))
     }
 
     /// A number that must be there.

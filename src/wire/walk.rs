@@ -1,12 +1,14 @@
-//! Walks the text of a body that is no JSON, or has a field twice: finds the usual slips, each with its place.
+//! Walks the text of a body: makes a value of it, and finds fields that are there twice and, where it is no JSON, the usual
+//! slips, each with its place.
 //!
-//! The JSON library stops at the first slip, without its pointer, and lets the last of two equal names win. This walk is
-//! only taken where one of the two has happened.
+//! The JSON library stops at the first slip, without its pointer, and lets the last of two equal names win. It says before
+//! whether the text is JSON: this walk looks at words and brackets, and is lax with numbers.
 
-use std::collections::HashSet;
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
-use serde_json::Value;
-
+use super::json::{Json, Object};
 use super::path::{MAX_FAULTS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
@@ -14,16 +16,16 @@ use singulate_planner::scene::MAX_ID_LENGTH;
 const MAX_DEPTH: usize = 128;
 /// The longest piece of a body that is shown, characters.
 const MAX_SHOWN: usize = 40;
-/// The longest names that a pointer may hold together, bytes. Each fault has a pointer, and nobody's names are as long.
-const MAX_NAMED: usize = 1000;
 /// The values that are words.
 const WORDS: [&str; 3] = ["true", "false", "null"];
 /// How programs write what is no finite number, in small letters.
 const NO_NUMBERS: [&str; 3] = ["nan", "inf", "infinity"];
 
 /// What a walk has found.
-#[derive(Debug, Default)]
-pub(super) struct Walk {
+#[derive(Debug)]
+pub(super) struct Walk<'t> {
+    /// The value, as far as the walk came.
+    pub(super) value: Json<'t>,
     /// Values such as `NaN`, which JSON has no way to write.
     pub(super) no_numbers: Vec<NoNumber>,
     /// Fields whose name an earlier field of their object has.
@@ -67,9 +69,11 @@ pub(super) enum Slip {
 type Stop = Option<Slip>;
 
 /// Walk over a whole text.
-pub(super) fn walk(text: &[u8]) -> Walk {
-    let mut walker = Walker { text, at: 0, found: Walk::default() };
-    let whole = walker.value(&Path::Root, 0).and_then(|_| {
+pub(super) fn walk(text: &[u8]) -> Walk<'_> {
+    let found = Walk { value: Json::Null, no_numbers: Vec::new(), repeated: Vec::new(), slip: None };
+    let mut walker = Walker { text, at: 0, found };
+    let whole = walker.value(&Path::Root, 0).and_then(|value| {
+        walker.found.value = value;
         walker.space();
         if walker.at == text.len() { Ok(()) } else { Err(walker.slip()) }
     });
@@ -77,42 +81,13 @@ pub(super) fn walk(text: &[u8]) -> Walk {
     walker.found
 }
 
-/// True if the text has a name twice in one object; `value` is what the JSON library has read. Each field has one colon
-/// outside of strings, and the library keeps one field of each name.
-pub(super) fn repeats(text: &[u8], value: &Value) -> bool {
-    let (mut colons, mut inside, mut escaped) = (0, false, false);
-    for &byte in text {
-        match byte {
-            _ if escaped => escaped = false,
-            b'\\' => escaped = inside,
-            b'"' => inside = !inside,
-            b':' if !inside => colons += 1,
-            _ => {}
-        }
-    }
-    colons != fields(value)
-}
-
-fn fields(value: &Value) -> usize {
-    match value {
-        Value::Object(map) => map.len() + map.values().map(fields).sum::<usize>(),
-        Value::Array(items) => items.iter().map(fields).sum(),
-        _ => 0,
-    }
-}
-
-/// The pointer; that of the whole body where the names in it are too long.
-fn pointer(path: &Path<'_>) -> String {
-    if path.named() > MAX_NAMED { String::new() } else { path.to_string() }
-}
-
 struct Walker<'t> {
     text: &'t [u8],
     at: usize,
-    found: Walk,
+    found: Walk<'t>,
 }
 
-impl Walker<'_> {
+impl<'t> Walker<'t> {
     fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
     }
@@ -137,36 +112,51 @@ impl Walker<'_> {
         }
     }
 
-    /// A value; its text where it is a string.
-    fn value(&mut self, path: &Path<'_>, depth: usize) -> Result<Option<String>, Stop> {
+    /// The text from here on to where the walk is. Empty where it is not UTF-8.
+    fn since(&self, start: usize) -> &'t str {
+        self.text.get(start..self.at).and_then(|piece| core::str::from_utf8(piece).ok()).unwrap_or_default()
+    }
+
+    fn value(&mut self, path: &Path<'_>, depth: usize) -> Result<Json<'t>, Stop> {
         self.space();
-        let sign = self.peek().is_some_and(|byte| b"+-".contains(&byte));
+        let (start, sign) = (self.at, self.peek().is_some_and(|byte| b"+-".contains(&byte)));
         let next = self.text.get(self.at + usize::from(sign)).copied().unwrap_or_default();
         match self.peek() {
             Some(b'{' | b'[') if depth == MAX_DEPTH => Err(None),
-            Some(b'{') => self.object(path, depth).map(|()| None),
-            Some(b'[') => self.array(path, depth).map(|()| None),
-            Some(b'"') => self.string().map(Some),
+            Some(b'{') => self.object(path, depth),
+            Some(b'[') => self.array(path, depth),
+            Some(b'"') => self.string().map(Json::String),
             Some(byte) if byte.is_ascii_digit() || byte == b'-' && next.is_ascii_digit() => {
                 self.skip_while(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
-                Ok(None)
+                Ok(Json::Number(self.since(start)))
             }
-            Some(_) if next.is_ascii_alphabetic() => self.word(path).map(|()| None),
+            Some(_) if next.is_ascii_alphabetic() => self.word(path),
             _ => Err(self.slip()),
         }
     }
 
-    fn object(&mut self, path: &Path<'_>, depth: usize) -> Result<(), Stop> {
-        let (first, mut id) = (self.found.no_numbers.len(), None);
-        let walked = self.fields(path, depth, &mut id);
+    fn object(&mut self, path: &Path<'_>, depth: usize) -> Result<Json<'t>, Stop> {
+        let (first, start, mut object) = (self.found.no_numbers.len(), self.at, Object::default());
+        let walked = self.fields(path, depth, &mut object.fields);
+        let id = object.get("id").and_then(|id| match id {
+            Json::String(text) => Some(text).filter(|text| text.chars().nth(MAX_ID_LENGTH).is_none()),
+            _ => None,
+        });
         for no_number in &mut self.found.no_numbers[first..] {
-            no_number.id = no_number.id.take().or_else(|| id.clone());
+            no_number.id = no_number.id.take().or_else(|| id.map(|id| id.to_string()));
         }
-        walked
+        walked?;
+        object.text = self.since(start);
+        Ok(Json::Object(Box::new(object)))
     }
 
-    fn fields(&mut self, path: &Path<'_>, depth: usize, id: &mut Option<String>) -> Result<(), Stop> {
-        let (mut names, mut comma) = (HashSet::new(), None);
+    fn fields(
+        &mut self,
+        path: &Path<'_>,
+        depth: usize,
+        fields: &mut Vec<(Cow<'t, str>, Json<'t>)>,
+    ) -> Result<(), Stop> {
+        let (mut places, mut comma) = (HashMap::new(), None);
         self.at += 1;
         loop {
             self.space();
@@ -188,31 +178,40 @@ impl Walker<'_> {
             }
             self.at += 1;
             let field = path.field(&name);
-            if names.contains(&name) && self.found.repeated.len() < MAX_FAULTS {
-                let shown = name.chars().take(MAX_SHOWN).collect();
-                self.found.repeated.push(Repeated { name: shown, at, pointer: pointer(&field) });
-            }
-            let text = self.value(&field, depth + 1)?;
-            if name == "id" {
-                *id = text.filter(|text| text.chars().nth(MAX_ID_LENGTH).is_none());
-            }
-            names.insert(name);
+            let value = match places.entry(name.clone()) {
+                Entry::Occupied(entry) => {
+                    if self.found.repeated.len() < MAX_FAULTS {
+                        let shown = name.chars().take(MAX_SHOWN).collect();
+                        self.found.repeated.push(Repeated { name: shown, at, pointer: field.pointer() });
+                    }
+                    let place: usize = *entry.get();
+                    fields[place].1 = self.value(&field, depth + 1)?;
+                    comma = self.comma(b'}')?;
+                    continue;
+                }
+                Entry::Vacant(entry) => {
+                    entry.insert(fields.len());
+                    self.value(&field, depth + 1)?
+                }
+            };
+            fields.push((name, value));
             comma = self.comma(b'}')?;
         }
     }
 
-    fn array(&mut self, path: &Path<'_>, depth: usize) -> Result<(), Stop> {
-        let mut comma = None;
+    fn array(&mut self, path: &Path<'_>, depth: usize) -> Result<Json<'t>, Stop> {
+        let (mut items, mut comma) = (Vec::new(), None);
         self.at += 1;
-        for position in 0.. {
+        loop {
             self.space();
             if self.peek() == Some(b']') {
-                return self.close(comma);
+                self.close(comma)?;
+                return Ok(Json::Array(items));
             }
-            self.value(&path.item(position), depth + 1)?;
+            let item = self.value(&path.item(items.len()), depth + 1)?;
+            items.push(item);
             comma = self.comma(b']')?;
         }
-        Ok(())
     }
 
     /// The place of the comma behind an entry; none where the list is closed instead.
@@ -238,25 +237,36 @@ impl Walker<'_> {
         Ok(())
     }
 
-    fn string(&mut self) -> Result<String, Stop> {
-        let start = self.at;
-        let mut escaped = false;
+    fn string(&mut self) -> Result<Cow<'t, str>, Stop> {
+        let (start, mut escaped, mut plain) = (self.at, false, true);
         self.at += 1;
         self.skip_while(|byte| {
             let ends = byte == b'"' && !escaped;
+            plain &= byte != b'\\';
             escaped = byte == b'\\' && !escaped;
             !ends
         });
         self.at = self.text.len().min(self.at + 1);
-        serde_json::from_slice(&self.text[start..self.at]).map_err(|_| None)
+        let text = &self.text[start..self.at];
+        let read = |text| {
+            if plain {
+                serde_json::from_slice::<&str>(text).map(Cow::Borrowed)
+            } else {
+                serde_json::from_slice::<String>(text).map(Cow::Owned)
+            }
+        };
+        read(text).map_err(|_| None)
     }
 
     /// A word in place of a value.
-    fn word(&mut self, path: &Path<'_>) -> Result<(), Stop> {
+    fn word(&mut self, path: &Path<'_>) -> Result<Json<'t>, Stop> {
         let at = self.at;
         let word = self.bare();
-        if WORDS.contains(&word.as_str()) {
-            return Ok(());
+        match word.as_str() {
+            "true" => return Ok(Json::Bool(true)),
+            "false" => return Ok(Json::Bool(false)),
+            "null" => return Ok(Json::Null),
+            _ => {}
         }
         if self.at == self.text.len() && WORDS.iter().any(|known| known.starts_with(&word)) {
             // The text is cut short.
@@ -268,9 +278,9 @@ impl Walker<'_> {
             return Err(Some(Slip::Word(word)));
         }
         if self.found.no_numbers.len() < MAX_FAULTS {
-            self.found.no_numbers.push(NoNumber { word, at, pointer: pointer(path), id: None });
+            self.found.no_numbers.push(NoNumber { word, at, pointer: path.pointer(), id: None });
         }
-        Ok(())
+        Ok(Json::Null)
     }
 
     /// A word without quotes, cut to what is shown.

@@ -1,7 +1,9 @@
 //! Bodies that are no JSON, and fields that are there twice.
 
-use super::has_faults;
-use crate::wire::*;
+use serde_json::json;
+
+use super::{has_faults, read, scene, with};
+use crate::wire::{Problem, ProblemKind, RequestLimits, path, read_batch, read_job, read_scene, read_verify};
 
 fn refused(body: &[u8]) -> Problem {
     read_scene(body, &RequestLimits::default()).unwrap_err()
@@ -165,4 +167,51 @@ fn long_names_and_ids_make_no_long_answer() {
         let length = serde_json::to_vec(&problem).unwrap().len();
         assert!(length < 500_000 && problem.errors().len() <= 1000, "{length} {}", problem.errors().len());
     }
+}
+
+/// The JSON library means something by these names where it reads a value of its own.
+#[test]
+fn a_name_that_the_json_library_keeps_for_itself_is_a_name() {
+    for name in ["$serde_json::private::Number", "$serde_json::private::RawValue"] {
+        for (pointer, text) in [("/objects/0/x", "0.3"), ("/target", "\"a\""), ("/objects", "[]"), ("/table", "{}")] {
+            let problem = read(&with(pointer, json!({name: text})).to_string()).expect_err("an object");
+            assert!(problem.errors().iter().any(|error| error.pointer.starts_with(pointer)), "{name} {problem}");
+        }
+        let whole = read(&json!({name: scene().to_string()}).to_string()).expect_err("no scene");
+        has_faults(
+            &whole,
+            &[
+                ("unknown_field", &format!("/{name}")),
+                ("missing", "/table"),
+                ("missing", "/gripper"),
+                ("missing", "/objects"),
+                ("missing", "/target"),
+            ],
+        );
+    }
+}
+
+/// One text within the other, each with all the brackets that a body may have, would fill any stack.
+#[test]
+fn a_text_within_a_text_is_read_as_a_text() {
+    let mut text = "0".to_owned();
+    for _ in 0..12 {
+        let inner = json!({"$serde_json::private::RawValue": text}).to_string();
+        text = format!("{}{inner}{}", "[".repeat(120), "]".repeat(120));
+    }
+    let problem = read(&with("/objects/0/x", json!({"a": text})).to_string());
+    has_faults(&problem.expect_err("an object"), &[("wrong_type", "/objects/0/x")]);
+    let problem = read(&scene().to_string().replace("0.3", &text)).expect_err("lists");
+    has_faults(&problem, &[("wrong_type", "/objects/0/x")]);
+}
+
+#[test]
+fn a_repeated_field_is_seen_whatever_else_is_there() {
+    let body = scene().to_string();
+    let twice = format!(
+        r#"{},"target":"b","scene_id":{{"$serde_json::private::RawValue":"{{\"a\":1,\"b\":2}}"}}}}"#,
+        &body[..body.len() - 1]
+    );
+    let problem = read(&twice).expect_err("twice");
+    assert!(problem.errors().iter().any(|error| error.pointer == "/target"), "{problem}");
 }

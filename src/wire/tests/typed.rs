@@ -5,6 +5,8 @@ use proptest::sample::{select, subsequence};
 use serde_json::{Value, json};
 
 use super::{scene, with};
+use crate::wire::json::Json;
+use crate::wire::walk::walk;
 use crate::wire::{RequestLimits, claim, job_request, request, typed};
 
 const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
@@ -14,7 +16,7 @@ const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x
  "target": "a", "settings": {"objective": "short_moves", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
 
 /// What may stand in place of something else: unusual and sound, or faulty.
-const EDITS: [(&str, &str); 45] = [
+const EDITS: [(&str, &str); 49] = [
     ("0.3", "-0.0"),
     ("0.3", "-0"),
     ("0.3", "0.30000000000000004441"),
@@ -24,6 +26,10 @@ const EDITS: [(&str, &str); 45] = [
     ("0.3", "null"),
     ("0.3", "\"0.3\""),
     ("0.3", "NaN"),
+    ("0.3", r#"{"$serde_json::private::Number": "0.3"}"#),
+    ("0.3", r#"{"$serde_json::private::RawValue": "0.3"}"#),
+    ("\"a\"", r#"{"$serde_json::private::RawValue": "\"a\""}"#),
+    ("{\"objective\"", r#"{"$serde_json::private::RawValue": "{}", "objective""#),
     ("1.2", "9007199254740993"),
     ("1.2", "18446744073709551617"),
     ("1.2", "99999.99999999999999"),
@@ -77,7 +83,46 @@ fn compare(scene: &str) {
     agree(claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits), &body);
 }
 
+/// Any value, some with equal names in one object.
+fn anything() -> impl Strategy<Value = Value> {
+    let leaf = prop_oneof![
+        Just(Value::Null),
+        any::<bool>().prop_map(Value::from),
+        any::<f64>().prop_map(Value::from),
+        any::<i64>().prop_map(Value::from),
+        ".{0,6}".prop_map(Value::from),
+    ];
+    leaf.prop_recursive(4, 40, 6, |inner| {
+        prop_oneof![
+            proptest::collection::vec(inner.clone(), 0..6).prop_map(Value::from),
+            proptest::collection::vec(("[a-c\\\\\"ü]{0,2}", inner), 0..6)
+                .prop_map(|fields| fields.into_iter().collect()),
+        ]
+    })
+}
+
+fn as_the_library_has_it(value: &Json<'_>) -> Value {
+    match value {
+        Json::Null => Value::Null,
+        Json::Bool(value) => (*value).into(),
+        Json::Number(literal) => serde_json::from_str(literal).unwrap(),
+        Json::String(text) => text.as_ref().into(),
+        Json::Array(items) => items.iter().map(as_the_library_has_it).collect(),
+        Json::Object(object) => {
+            object.fields.iter().map(|(name, value)| (name.as_ref(), as_the_library_has_it(value))).collect()
+        }
+    }
+}
+
 proptest! {
+    #[test]
+    fn the_walk_reads_what_the_library_reads(value in anything(), pretty: bool) {
+        let text = if pretty { serde_json::to_string_pretty(&value) } else { serde_json::to_string(&value) }.unwrap();
+        let walked = walk(text.as_bytes());
+        prop_assert!(walked.slip.is_none() && walked.no_numbers.is_empty() && walked.repeated.is_empty());
+        prop_assert_eq!(as_the_library_has_it(&walked.value), value);
+    }
+
     #[test]
     fn what_the_straight_way_takes_the_walk_takes_too(edits in subsequence(&EDITS[..], 0..=3)) {
         let mut body = SOUND.to_owned();
@@ -118,8 +163,7 @@ fn a_plan_is_nested_as_deep_as_its_body_may_be() {
         let plan = format!(r#"{{"relocations": [], "target_grasp": {{"yaw": 1}}, "statistics": {{"\"[": {nested}}}}}"#);
         let body = format!(r#"{{"plan": {plan}, "scene": {SOUND}}}"#);
         let limits = RequestLimits::default();
-        let (quick, walked) =
-            (claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits));
+        let (quick, walked) = (claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits));
         assert_eq!(quick.is_some(), walked.is_ok(), "{deep}");
     }
 }
