@@ -1,7 +1,7 @@
-//! Scene, answer and problem as JSON. No other room knows how they are written.
+//! Scene, answer and problem as JSON. Only this room knows the format.
 //!
-//! A sound body is read straight into drafts. Any other is read as a JSON value and walked, so that faults of shape are told
-//! together with those of meaning, each with its JSON pointer.
+//! A valid body is parsed straight into drafts. Any other is parsed as a JSON value and walked, so that faults of shape
+//! and of meaning are reported together, each with its JSON pointer.
 
 mod answer;
 mod claim;

@@ -1,8 +1,8 @@
-//! Where a value stands in a body.
+//! Paths of values in a body.
 
 use core::fmt;
 
-/// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
+/// The path from the root to a value. Displayed as a JSON pointer (RFC 6901).
 #[derive(Clone, Copy)]
 pub(super) enum Path<'a> {
     Root,
@@ -19,7 +19,7 @@ impl<'a> Path<'a> {
         Self::Item(self, position)
     }
 
-    /// Bytes of the names in it.
+    /// The bytes of the names in it.
     pub(super) fn named(&self) -> usize {
         match self {
             Self::Root => 0,
@@ -39,5 +39,5 @@ impl fmt::Display for Path<'_> {
     }
 }
 
-/// The most faults that one answer lists: past that nobody reads on.
+/// The most faults in one answer.
 pub(super) const MAX_FAULTS: usize = 1000;

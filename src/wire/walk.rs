@@ -1,7 +1,7 @@
-//! Walks the text of a body that is no JSON, or has a field twice: finds the usual slips, each with its place.
+//! Walks the text of a body that is not JSON, or has a repeated field: finds common slips, each with its place.
 //!
-//! The JSON library stops at the first slip, without its pointer, and lets the last of two equal names win. This walk is
-//! only taken where one of the two has happened.
+//! The JSON library stops at the first slip, without its pointer, and keeps the last of two equal names. This walk runs
+//! only in these two cases.
 
 use std::collections::HashSet;
 
@@ -10,23 +10,23 @@ use serde_json::Value;
 use super::path::{MAX_FAULTS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
-/// How deep values may be nested; the JSON library allows as much.
+/// The deepest nesting of values, as in the JSON library.
 const MAX_DEPTH: usize = 128;
-/// The longest piece of a body that is shown, characters.
+/// The longest excerpt of a body, characters.
 const MAX_SHOWN: usize = 40;
-/// The longest names that a pointer may hold together, bytes. Each fault has a pointer, and nobody's names are as long.
+/// The longest total of the names in a pointer, bytes. Each fault has a pointer, and real names are shorter.
 const MAX_NAMED: usize = 1000;
-/// The values that are words.
+/// The literal names of JSON.
 const WORDS: [&str; 3] = ["true", "false", "null"];
-/// How programs write what is no finite number, in small letters.
+/// Non-finite numbers as programs write them, in lower case.
 const NO_NUMBERS: [&str; 3] = ["nan", "inf", "infinity"];
 
-/// What a walk has found.
+/// The results of a walk.
 #[derive(Debug, Default)]
 pub(super) struct Walk {
-    /// Values such as `NaN`, which JSON has no way to write.
+    /// Values such as `NaN`, which JSON can't express.
     pub(super) no_numbers: Vec<NoNumber>,
-    /// Fields whose name an earlier field of their object has.
+    /// Fields whose name an earlier field of the same object has.
     pub(super) repeated: Vec<Repeated>,
     /// Why the walk ended early, and where in the text.
     pub(super) slip: Option<(Slip, usize)>,
@@ -42,7 +42,7 @@ pub(super) struct NoNumber {
     pub(super) id: Option<String>,
 }
 
-/// A field that is there twice.
+/// A repeated field.
 #[derive(Debug)]
 pub(super) struct Repeated {
     pub(super) name: String,
@@ -50,20 +50,20 @@ pub(super) struct Repeated {
     pub(super) pointer: String,
 }
 
-/// What is no JSON.
+/// A common slip that is not JSON.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Slip {
     Comment,
     /// Quotes of this kind.
     Quote(&'static str),
     TrailingComma,
-    /// A value that is a word.
+    /// An unknown word as a value.
     Word(String),
     /// A name without quotes.
     BareName(String),
 }
 
-/// Why a walk stops. Without a slip the JSON library's own words do.
+/// Why a walk stops. Without a slip, the JSON library's own message is used.
 type Stop = Option<Slip>;
 
 /// Walk over a whole text.
@@ -77,8 +77,8 @@ pub(super) fn walk(text: &[u8]) -> Walk {
     walker.found
 }
 
-/// True if the text has a name twice in one object; `value` is what the JSON library has read. Each field has one colon
-/// outside of strings, and the library keeps one field of each name.
+/// True if the text repeats a name within one object; `value` is the parsed text. Each field has one colon outside of
+/// strings, and the library keeps one field per name.
 pub(super) fn repeats(text: &[u8], value: &Value) -> bool {
     let (mut colons, mut inside, mut escaped) = (0, false, false);
     for &byte in text {
@@ -101,7 +101,7 @@ fn fields(value: &Value) -> usize {
     }
 }
 
-/// The pointer; that of the whole body where the names in it are too long.
+/// The pointer; empty if the names in it are too long.
 fn pointer(path: &Path<'_>) -> String {
     if path.named() > MAX_NAMED { String::new() } else { path.to_string() }
 }
@@ -127,7 +127,7 @@ impl Walker<'_> {
         self.skip_while(|byte| b" \t\r\n".contains(&byte));
     }
 
-    /// What begins here, where something else should.
+    /// The slip at this place.
     fn slip(&self) -> Stop {
         match &self.text[self.at..] {
             [b'#', ..] | [b'/', b'/' | b'*', ..] => Some(Slip::Comment),
@@ -137,7 +137,7 @@ impl Walker<'_> {
         }
     }
 
-    /// A value; its text where it is a string.
+    /// A value; returns its text if it is a string.
     fn value(&mut self, path: &Path<'_>, depth: usize) -> Result<Option<String>, Stop> {
         self.space();
         let sign = self.peek().is_some_and(|byte| b"+-".contains(&byte));
@@ -215,7 +215,7 @@ impl Walker<'_> {
         Ok(())
     }
 
-    /// The place of the comma behind an entry; none where the list is closed instead.
+    /// The place of the comma after an entry; `None` if the list ends.
     fn comma(&mut self, close: u8) -> Result<Option<usize>, Stop> {
         self.space();
         match self.peek() {
@@ -228,7 +228,7 @@ impl Walker<'_> {
         }
     }
 
-    /// The end of an object or a list, unless a comma stands before it.
+    /// The end of an object or a list; a slip if a comma precedes it.
     fn close(&mut self, comma: Option<usize>) -> Result<(), Stop> {
         if let Some(at) = comma {
             self.at = at;
@@ -251,7 +251,7 @@ impl Walker<'_> {
         serde_json::from_slice(&self.text[start..self.at]).map_err(|_| None)
     }
 
-    /// A word in place of a value.
+    /// A word as a value.
     fn word(&mut self, path: &Path<'_>) -> Result<(), Stop> {
         let at = self.at;
         let word = self.bare();
@@ -259,7 +259,7 @@ impl Walker<'_> {
             return Ok(());
         }
         if self.at == self.text.len() && WORDS.iter().any(|known| known.starts_with(&word)) {
-            // The text is cut short.
+            // The text ends too early.
             return Err(None);
         }
         let unsigned = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
@@ -273,7 +273,7 @@ impl Walker<'_> {
         Ok(())
     }
 
-    /// A word without quotes, cut to what is shown.
+    /// A word without quotes, cut to the length shown.
     fn bare(&mut self) -> String {
         let start = self.at;
         self.skip_while(|byte| byte.is_ascii_alphanumeric() || b"+-_.".contains(&byte));

@@ -1,4 +1,4 @@
-//! The two ways to read a body lead to the same request.
+//! Both ways to read a body give the same request.
 
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
@@ -13,7 +13,7 @@ const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x
  "objects": [{"id": "a", "x": 0.3, "y": 0.2, "radius": 0.075}, {"id": "b", "x": 0.6, "y": 0.2, "radius": 0.075, "fixed": true}],
  "target": "a", "settings": {"objective": "short_moves", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
 
-/// What may stand in place of something else: unusual and sound, or faulty.
+/// Replacements for parts of a body: unusual but valid, or faulty.
 const EDITS: [(&str, &str); 45] = [
     ("0.3", "-0.0"),
     ("0.3", "-0"),
@@ -111,7 +111,7 @@ fn each_edit_alone() {
     }
 }
 
-/// Else all would be read the long way, and no test would tell.
+/// Otherwise all bodies would be walked, and no test would notice.
 #[test]
 fn sound_bodies_go_the_straight_way() {
     let limits = RequestLimits::default();

@@ -64,7 +64,7 @@ fn search(
     branch(&component, known, most_kept, meter)
 }
 
-/// The bound, whether or not the budget ended: any multipliers give one.
+/// The bound, even if the budget ended: any multipliers give one.
 fn reached(lagrangian: Result<LagrangianBound, LagrangianBound>) -> LagrangianBound {
     lagrangian.unwrap_or_else(|cut| cut)
 }
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use crate::budget::{Budget, Unlimited};
 
-    /// The same with all memory and with none to speak of.
+    /// The same with full memory and with almost none.
     fn solve(sets: &[Vec<usize>], width: usize) -> Hits {
         let solve = |most_kept| least_hits(sets.to_vec(), width, most_kept, &mut Meter::new(&Budget::unlimited()));
         let hits = solve(MOST_KEPT);
