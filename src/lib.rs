@@ -4,7 +4,7 @@
 //! [`workers`]: the thread pool. [`computation`]: planning calls. [`jobs`]: durable jobs. [`api`]: HTTP. [`tls`]:
 //! encryption. [`render`]: drawings. [`experiments`]: generated scenes and the paper's tables. [`metrics`]: counts and
 //! times. [`traces`]: spans. [`cli`]: the command line. [`config`]: settings. [`watched_files`]: files that are
-//! reloaded. [`telemetry`]: where log lines and traces go.
+//! reloaded. [`telemetry`]: log lines and the export of traces.
 
 pub mod api;
 pub mod cli;

@@ -5,7 +5,6 @@
 //! unread bytes. So a layer below the handlers reads and drops the rest of every body. The answer waits briefly for
 //! that. If the rest is late or too long, the answer says `Connection: close`, and the connection lingers: it reads
 //! until the client closes.
-//! what the client still sends until the client closes.
 
 use core::future::poll_fn;
 use core::pin::{Pin, pin};

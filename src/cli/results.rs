@@ -7,7 +7,7 @@ use crate::experiments::{
 };
 use singulate_planner::plan::{GraspModel, SearchMethod};
 
-/// What can't be reproduced exactly.
+/// The figures that can't be reproduced exactly.
 pub(super) const NOT_THE_SAME: &str = "\
 What can't be as it was for the paper's own figures: its machine; its scenes, which it only says
 are random. Algorithm 1 as printed counts the target; here it isn't counted: add 1 to compare. Its
@@ -113,7 +113,7 @@ fn faults(columns: &[Table2Column]) -> String {
     table(&titles("N|places|faulty|at release|otherwise|faults"), rows.into_iter())
 }
 
-/// Each column's methods by each grasp model, with what the paper prints for the same method.
+/// Each column's methods by each grasp model, with the paper's figures for the same method.
 fn methods(columns: &[Table1Column]) -> impl Iterator<Item = (&Table1Column, &ModelFigures, &MethodFigures)> {
     columns.iter().flat_map(|column| {
         let models = [&column.sector, &column.swept_finger];

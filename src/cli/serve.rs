@@ -37,7 +37,7 @@ impl Serve {
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
         let served = runtime.block_on(serve(config));
-        // Nothing is left that is worth waiting for.
+        // Nothing that is left is worth waiting for.
         runtime.shutdown_background();
         if let Some(traces) = traces {
             traces.finish();

@@ -16,7 +16,7 @@ const OF_CLIENTS: [&str; 2] = ["SINGULATE_URL", "SINGULATE_KEY"];
 /// The variable that names the file.
 const CONFIG_VARIABLE: &str = "SINGULATE_CONFIG";
 
-/// Where a value came from.
+/// The source of a value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// A flag.

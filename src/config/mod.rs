@@ -21,7 +21,7 @@ use crate::tls::Certificates;
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
-    /// Where the service listens.
+    /// The listen address.
     pub listen: SocketAddr,
     /// The service and its limits.
     pub server: ServerSettings,

@@ -9,7 +9,7 @@ use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
 /// All methods on the bases of one grasp model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelFigures {
-    /// Which yaws an obstacle blocks.
+    /// The yaws that an obstacle blocks.
     pub grasp_model: GraspModel,
     /// The time for a complete base, s.
     pub knowledge_s: Option<Spread>,

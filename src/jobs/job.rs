@@ -135,7 +135,7 @@ pub struct NewJob {
     pub callback_url: Option<String>,
 }
 
-/// A job as it stands.
+/// A job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
     /// Its id.

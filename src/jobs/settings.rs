@@ -8,7 +8,7 @@ use super::callback::{CallbackAllow, CallbackSecret};
 /// The settings of jobs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JobSettings {
-    /// Where jobs are kept: `sqlite:PATH`, `sqlite::memory:` or `postgres://…`.
+    /// The store of jobs: `sqlite:PATH`, `sqlite::memory:` or `postgres://…`.
     pub url: String,
     /// Threads that plan for jobs.
     pub threads: usize,

@@ -68,7 +68,7 @@ pub struct Claimed {
     pub owner: Owner,
     /// The planning request as JSON.
     pub body: Vec<u8>,
-    /// Which attempt this is, from 1.
+    /// The number of the attempt, from 1.
     pub attempt: u32,
     /// When it was accepted.
     pub created_at: Timestamp,
@@ -125,7 +125,7 @@ pub struct Callback {
     pub job: Job,
     /// The receiver.
     pub url: String,
-    /// Which try this is, from 1.
+    /// The number of the try, from 1.
     pub attempt: u32,
 }
 
@@ -138,7 +138,7 @@ pub enum Delivery {
     Again(Timestamp),
 }
 
-/// What a sweep has changed.
+/// The changes of a sweep.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Swept {
     /// Lost by their workers and queued again.

@@ -47,7 +47,7 @@ impl WallClock {
         Self::new(Timestamp::now)
     }
 
-    /// Shows what `now` says.
+    /// A clock that calls `now`.
     pub fn new(now: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
         Self(Arc::new(now))
     }

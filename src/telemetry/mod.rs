@@ -1,4 +1,4 @@
-//! Where log lines and traces go.
+//! Sends log lines to stderr and spans to a collector.
 
 mod log;
 mod otlp;

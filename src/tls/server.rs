@@ -24,7 +24,7 @@ pub enum TlsError {
     /// A file has the wrong content.
     #[error("{}: {detail}", .path.display())]
     Unfit {
-        /// Which file.
+        /// The file.
         path: PathBuf,
         /// The fault.
         detail: String,

@@ -9,7 +9,6 @@ use rustls::{ClientConfig, DigitallySignedStruct, Error, SignatureScheme};
 
 /// For the health check of this machine's service. It connects to an address of its own machine, which no certificate
 /// names, and sends no secret.
-/// names, and tells no secret.
 ///
 /// # Panics
 /// Never: ring speaks every version of TLS that rustls asks for.

@@ -1,4 +1,4 @@
-//! Spans: which request caused which planning, and how long each part took.
+//! Spans: the planning that a request caused, and the time of each part.
 //!
 //! They go to the tracer given to [`collect`], once per process; without one they cost a check. The OpenTelemetry
 //! context carries a request's span to the planning thread.

@@ -65,7 +65,7 @@ pub struct HistogramBody {
 }
 
 impl KnowledgeBody {
-    /// What is known of a scene's objects.
+    /// The knowledge of a scene's objects.
     pub fn new(scene: &Scene, known: &[Known]) -> Self {
         Self { objects: known.iter().map(|known| KnownObject::new(scene, known)).collect() }
     }

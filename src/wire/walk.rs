@@ -32,7 +32,7 @@ pub(super) struct Walk {
     pub(super) slip: Option<(Slip, usize)>,
 }
 
-/// A word in place of a number.
+/// A word instead of a number.
 #[derive(Debug)]
 pub(super) struct NoNumber {
     pub(super) word: String,
@@ -57,7 +57,7 @@ pub(super) enum Slip {
     /// Quotes of this kind.
     Quote(&'static str),
     TrailingComma,
-    /// An unknown word as a value.
+    /// An unknown word where a value is expected.
     Word(String),
     /// A name without quotes.
     BareName(String),
@@ -251,7 +251,7 @@ impl Walker<'_> {
         serde_json::from_slice(&self.text[start..self.at]).map_err(|_| None)
     }
 
-    /// A word as a value.
+    /// A word where a value is expected.
     fn word(&mut self, path: &Path<'_>) -> Result<(), Stop> {
         let at = self.at;
         let word = self.bare();

@@ -50,7 +50,7 @@ impl Recall {
     }
 }
 
-/// What the caller and the thread share about one computation.
+/// The state of one computation that its caller and its thread share.
 #[derive(Debug)]
 pub(super) struct Ticket {
     arrival: Instant,

@@ -16,7 +16,7 @@ pub struct LowerBound {
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 
-/// Why nothing frees the target.
+/// The proof that nothing frees the target.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deadlock {
     /// The greatest lock, in index order, with fixed objects that block a member.

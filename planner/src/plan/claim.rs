@@ -52,7 +52,7 @@ pub struct ClaimedDeadlock {
     pub core: Vec<String>,
 }
 
-/// A stated answer. What is `None` is not stated and so not checked.
+/// A stated answer. Parts that are `None` are not checked.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claim {
     /// The verdict.
@@ -71,6 +71,6 @@ pub struct Claim {
     pub landmarks: Option<Vec<Vec<String>>>,
     /// The proof of a deadlock.
     pub deadlock: Option<ClaimedDeadlock>,
-    /// The best known derivation where there is no plan: ids, in order.
+    /// The best known derivation if there is no plan: ids, in order.
     pub needed: Option<Vec<String>>,
 }

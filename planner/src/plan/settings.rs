@@ -8,7 +8,7 @@ use crate::placement::Objective;
 /// The settings of a plan.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Settings {
-    /// Which yaws an obstacle blocks.
+    /// The yaws that an obstacle blocks.
     pub grasp_model: GraspModel,
     /// The method that finds the relocations.
     pub search: SearchMethod,
@@ -18,7 +18,7 @@ pub struct Settings {
     pub objective: Objective,
 }
 
-/// Which yaws an obstacle blocks.
+/// The yaws that an obstacle blocks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum GraspModel {
     /// Exactly the yaws at which a finger meets it.

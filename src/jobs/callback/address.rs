@@ -1,4 +1,4 @@
-//! Which addresses are on the public internet.
+//! Tells public IP addresses from special ones.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 

@@ -1,4 +1,4 @@
-//! Where SQLite and PostgreSQL differ.
+//! The differences between SQLite and PostgreSQL.
 
 use std::borrow::Cow;
 

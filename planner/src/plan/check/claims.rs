@@ -1,4 +1,4 @@
-//! Whether the parts of a stated answer agree with each other and with what was proven.
+//! Checks that the parts of a stated answer agree with each other and with the proof.
 
 use crate::plan::claim::{Claim, VerdictName};
 

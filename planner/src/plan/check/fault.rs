@@ -31,7 +31,7 @@ pub enum FaultCode {
     TargetMoved,
     /// A yaw, slack or coordinate is not finite, or too large to be resolved.
     NumberOutOfRange,
-    /// The object does not stand where the step says.
+    /// The object is not at the place in the step.
     WrongFrom,
     /// The new place sticks out over the table's edge.
     OffTable,

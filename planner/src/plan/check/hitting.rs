@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// The 15 edges of Petersen's graph, so many times over: nothing here is decided by reduction alone.
+    /// Copies of Petersen's graph with 15 edges each: nothing here is decided by reduction alone.
     fn petersen(copies: usize) -> (Vec<Vec<usize>>, usize) {
         let edges = (0..5).flat_map(|n| [(n, (n + 1) % 5), (n, n + 5), (n + 5, (n + 2) % 5 + 5)]);
         let edges: Vec<(usize, usize)> = edges.collect();

@@ -21,7 +21,7 @@ impl<'a> Meter<'a> {
         Self { budget, left: BEAT }
     }
 
-    /// A meter that asks only after [`PATIENCE`].
+    /// A meter that asks only after `PATIENCE`.
     pub(super) fn patient(budget: &'a Budget<'a>) -> Self {
         Self { budget, left: PATIENCE }
     }

@@ -1,4 +1,4 @@
-//! Which discs are near: a tree of boxes over the objects at the start, and one over the places that steps put them to.
+//! Finds near discs: one tree of boxes over the objects at the start, and one over the new places of the steps.
 //!
 //! All places are known before the replay begins, so the trees never change; a caller skips places that are empty at
 //! its step. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
@@ -24,7 +24,7 @@ pub(super) struct Places {
     steps: Tree,
     /// Per place of the steps the object put there.
     owners: Vec<ObjectIndex>,
-    /// For each step its new place; `None` where the step can't be carried out.
+    /// For each step its new place; `None` if the step can't be carried out.
     of_steps: Vec<Option<PlaceIndex>>,
 }
 
@@ -123,7 +123,7 @@ impl Tree {
         tree
     }
 
-    /// The objects of a scene where they stand at the start: the n-th disc is the n-th object's.
+    /// The objects of a scene at their places at the start: the n-th disc is the n-th object's.
     pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
         Rc::new(Self::new(scene.objects().iter().map(|object| object.disc()).collect()))
     }

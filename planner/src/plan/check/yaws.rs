@@ -1,4 +1,4 @@
-//! Which yaws one obstacle blocks, found by cutting a circle with an outline.
+//! The yaws that one obstacle blocks, found by cutting a circle with an outline.
 //!
 //! Seen from the grasped object, with the finger along +x, the obstacle's centre runs on a circle while the yaw turns. It
 //! blocks while it is inside the finger grown by ρ: a rectangle with rounded corners. Every angle at which the circle can
