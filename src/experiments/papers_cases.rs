@@ -29,7 +29,7 @@ pub struct PapersCase {
 pub struct Printed {
     /// Episodes of [`TABLE1_EPISODES`] called a deadlock: there a rate in steps of 5 %.
     pub deadlocks: usize,
-    /// Episodes decided within a minute, out of as many.
+    /// Episodes of [`TABLE1_EPISODES`] decided within a minute.
     pub successes: usize,
     /// Mean search time, s.
     pub search_s: f64,

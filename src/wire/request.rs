@@ -56,7 +56,7 @@ pub(super) fn request(
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
         gripper: gripper.unwrap_or_default(),
-        // Without a list of objects, a missing target can't be reported.
+        // Without a list of objects, the target can't be checked.
         target: target.filter(|_| objects.is_some()),
         objects: objects.unwrap_or_default(),
     };
@@ -112,7 +112,7 @@ fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
 fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<ObjectDraft>> {
     let (count, max) = (node.length(), limits.scene.max_objects);
     if count > max {
-        // They are too many to be read.
+        // Reading them is not worth the work.
         faults.add(ErrorCode::TooManyObjects, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
         return None;
     }
