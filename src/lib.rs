@@ -1,10 +1,10 @@
 //! Plans the fewest relocations that free an object on a crowded table, and proves it.
 //!
-//! The arithmetic is the library `singulate_planner`; this is the service round it. [`wire`] knows JSON, [`keys`] who may
-//! call, [`workers`] threads, [`computation`] what a planning call is, [`jobs`] what outlives it, [`api`] HTTP, [`tls`] how
-//! nobody else reads it, [`render`] drawings, [`experiments`] made-up scenes and the paper's tables, [`metrics`] what is
-//! counted and timed, [`traces`] which call led to what, [`cli`] the command line, [`config`] its settings,
-//! [`watched_files`] what may be replaced meanwhile, and [`telemetry`] where log lines and traces go.
+//! The planner is the library `singulate_planner`; this is the service on top. [`wire`]: JSON. [`keys`]: API keys.
+//! [`workers`]: the thread pool. [`computation`]: planning calls. [`jobs`]: durable jobs. [`api`]: HTTP. [`tls`]:
+//! encryption. [`render`]: drawings. [`experiments`]: generated scenes and the paper's tables. [`metrics`]: counts and
+//! times. [`traces`]: spans. [`cli`]: the command line. [`config`]: settings. [`watched_files`]: files that are
+//! reloaded. [`telemetry`]: log lines and the export of traces.
 
 pub mod api;
 pub mod cli;

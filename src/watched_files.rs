@@ -1,4 +1,4 @@
-//! Files that may be replaced while the service runs: keys, certificates.
+//! Files that are reloaded while the service runs: keys, certificates.
 
 use core::time::Duration;
 use std::fs::File;
@@ -8,14 +8,14 @@ use std::path::PathBuf;
 use tokio::task::spawn_blocking;
 use tokio::time::sleep;
 
-/// How often is looked. Containers swap whole folders below a mounted file, and network disks tell of no changes, so
-/// contents are compared: of a few kilobytes, that is nothing.
+/// The poll interval. Containers swap whole folders below a mounted file, and network disks send no change events, so
+/// contents are compared: they are a few kilobytes.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// The most that is read of a file, bytes: a thousand keys, or a long chain of certificates.
+/// The most bytes read of a file: a thousand keys, or a long chain of certificates.
 const MAX_BYTES: u64 = 1_000_000;
 
-/// Some files with the contents they had when they were last read.
+/// Some files with their contents when last read.
 #[derive(Debug)]
 pub struct WatchedFiles {
     paths: Vec<PathBuf>,
@@ -33,17 +33,17 @@ impl WatchedFiles {
         Ok(Self { paths, contents, pause: PAUSE })
     }
 
-    /// Where they are.
+    /// Their paths.
     pub fn paths(&self) -> &[PathBuf] {
         &self.paths
     }
 
-    /// What they hold, in the order of the paths.
+    /// Their contents, in the order of the paths.
     pub fn contents(&self) -> &[Vec<u8>] {
         &self.contents
     }
 
-    /// Done once at least one of them holds something else, and all can be read.
+    /// Done once at least one file has changed, and all can be read.
     pub async fn changed(&mut self) {
         let mut fault = None;
         loop {
@@ -55,7 +55,7 @@ impl WatchedFiles {
                     return;
                 }
                 Ok(Ok(_)) => fault = None,
-                // Told once, not every second.
+                // Logged once, not every second.
                 Ok(Err(error)) if fault.as_ref() != Some(&error.to_string()) => {
                     tracing::warn!(%error, "what was read before still holds");
                     fault = Some(error.to_string());

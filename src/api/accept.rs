@@ -1,4 +1,4 @@
-//! Which representation the client wants (RFC 9110, section 12.5.1).
+//! Content negotiation by `Accept` (RFC 9110, section 12.5.1).
 
 use axum::http::{HeaderMap, header};
 
@@ -17,12 +17,12 @@ impl<'a> Range<'a> {
         let name = parts.next().filter(|name| !name.is_empty())?;
         let weight =
             parts.filter_map(|part| part.split_once('=')).find(|(name, _)| name.trim().eq_ignore_ascii_case("q"));
-        // A weight that nobody can read says nothing.
+        // An unreadable weight is ignored.
         let weight = weight.and_then(|(_, value)| value.trim().parse().ok()).unwrap_or(1.0);
         Some(Self { name, weight })
     }
 
-    /// How closely the range names the form: 3 for its own name, 1 for `*/*`, 0 for not at all.
+    /// How specific the match is: 3 for the form's own name, 1 for `*/*`, 0 for none.
     fn specificity(&self, form: Form) -> u8 {
         let media_type = form.media_type();
         if self.name.eq_ignore_ascii_case(media_type) {
@@ -35,10 +35,10 @@ impl<'a> Range<'a> {
     }
 }
 
-/// The form that the client likes best; of those that it likes alike the one it names most closely, then the first.
+/// The client's preferred form. Ties go to the more specific match, then to the first.
 ///
 /// # Errors
-/// A problem where it accepts none.
+/// A problem if the client accepts none.
 pub(super) fn choose(headers: &HeaderMap, offered: &[Form]) -> Result<Form, Problem> {
     let values: Vec<&str> = headers.get_all(header::ACCEPT).iter().filter_map(|value| value.to_str().ok()).collect();
     let ranges: Vec<Range<'_>> = values.iter().flat_map(|value| value.split(',')).filter_map(Range::parse).collect();

@@ -1,5 +1,5 @@
-//! Who may do what. Every operation says beside its route what it needs of a key, and is not reached without, nor is its
-//! body read.
+//! Access control. Each operation states next to its route which scope it needs; without it neither handler nor body is
+//! reached.
 
 use core::future::pending;
 use core::time::Duration;
@@ -22,27 +22,27 @@ use crate::keys::{Found, Keys, KeysError, Scope};
 use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
-/// What an operation needs of a key.
+/// The access that an operation needs.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Need {
-    /// Not even that there is one.
+    /// No key.
     Nothing,
-    /// That it holds.
+    /// Any valid key.
     AnyKey,
-    /// That it is for one of these, the least first.
+    /// A key with one of these scopes, the least first.
     OneOf(&'static [Scope]),
 }
 
-/// Who asks.
+/// The caller of a request.
 #[derive(Clone)]
 pub(super) struct Caller {
-    /// Whose the caller's jobs are, and whose turn it is to be served.
+    /// The owner of the caller's jobs, for fair queuing too.
     pub(super) owner: Owner,
     key: Option<Found>,
 }
 
 impl Caller {
-    /// Done once the caller's key no longer holds.
+    /// Done once the caller's key is no longer in force.
     pub(super) async fn locked_out(&self) {
         match &self.key {
             Some(key) => key.gone().cancelled().await,
@@ -55,28 +55,28 @@ impl<S: Sync> FromRequestParts<S> for Caller {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
-        // Whoever asks for the caller behind no guard must not get anybody.
+        // Fails on a route without `guard`.
         parts.extensions.get().cloned().ok_or_else(internal)
     }
 }
 
-/// Who may call.
+/// Checks the keys of callers.
 pub(super) struct Gate {
-    /// Without keys everybody may.
+    /// Without keys, access is open.
     keys: Option<Keys>,
     metrics: Arc<Metrics>,
 }
 
 impl Gate {
-    /// Reads the keys, if there is a file of them.
+    /// Read the keys file, if there is one.
     ///
     /// # Errors
-    /// If it is faulty.
+    /// If it is invalid.
     pub(super) fn open(keys: Option<&Path>, metrics: Arc<Metrics>) -> Result<Self, KeysError> {
         Ok(Self { keys: keys.map(Keys::open).transpose()?, metrics })
     }
 
-    /// Take over what the keys file says whenever that changes.
+    /// Reload the keys whenever the file changes.
     pub(super) async fn watch(&self) {
         if let Some(keys) = &self.keys {
             keys.watch().await;
@@ -91,7 +91,7 @@ impl Gate {
     }
 }
 
-/// The middleware before an operation that needs a key.
+/// The middleware of an operation that needs a key.
 pub(super) async fn guard(
     State((gate, need)): State<(Arc<Gate>, Need)>,
     mut request: Request<Body>,
@@ -110,7 +110,7 @@ pub(super) async fn guard(
     }
 }
 
-/// Why somebody is not let in.
+/// Why a caller is refused.
 enum NotAdmitted {
     NoKey,
     WrongKey,
@@ -122,7 +122,7 @@ fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, NotAdmi
     let key = keys.find(presented(headers)?).ok_or(NotAdmitted::WrongKey)?;
     // For the log.
     Span::current().record("key", key.name());
-    // What a key may not do counts too, or it could be tried for ever.
+    // A refused operation counts too, or it could be tried without limit.
     key.spend(Instant::now()).map_err(NotAdmitted::Rate)?;
     match need {
         Need::OneOf(scopes) if !key.is_for(scopes) => Err(NotAdmitted::Scope(scopes)),
@@ -130,7 +130,7 @@ fn admit(keys: &Keys, need: Need, headers: &HeaderMap) -> Result<Caller, NotAdmi
     }
 }
 
-/// The text that is to be a key.
+/// The key in the request.
 fn presented(headers: &HeaderMap) -> Result<&[u8], NotAdmitted> {
     let mut fields = headers.get_all(header::AUTHORIZATION).iter();
     let Some(field) = fields.next() else { return Err(NotAdmitted::NoKey) };
@@ -170,7 +170,7 @@ impl NotAdmitted {
         }
     }
 
-    /// What is said besides the scheme (RFC 6750, section 3).
+    /// The parameters of the challenge besides the scheme (RFC 6750, section 3).
     fn challenge(&self) -> Option<String> {
         match self {
             Self::WrongKey => Some(format!("{CHALLENGE}, error=\"invalid_token\"")),

@@ -1,4 +1,4 @@
-//! The service's parts, put together once.
+//! Builds the service from its parts.
 
 use std::io;
 use std::sync::Arc;
@@ -20,15 +20,15 @@ pub struct App {
     pub(super) settings: ServerSettings,
     pub(super) gate: Arc<Gate>,
     pub(super) running: Arc<Running>,
-    /// What the operations get.
+    /// The state of the operations.
     pub(super) parts: Parts,
 }
 
 impl App {
-    /// Reads the keys, opens the store of jobs and starts the planning threads.
+    /// Read the keys, open the store of jobs and start the planning threads.
     ///
     /// # Errors
-    /// If the keys are faulty, the store can't be opened, or the system gives no thread.
+    /// If the keys are invalid, the store can't be opened, or a thread can't be started.
     pub async fn start(settings: ServerSettings, engine: Engine) -> io::Result<Self> {
         let metrics = Arc::<Metrics>::default();
         let gate = Gate::open(settings.api_keys_file.as_deref(), Arc::clone(&metrics)).map_err(io::Error::other)?;
@@ -43,13 +43,13 @@ impl App {
         Ok(Self { settings, gate: Arc::new(gate), running, parts })
     }
 
-    /// From now on the service says that it is not ready, and begins nothing new.
+    /// From now on the service reports that it is not ready, and refuses new work.
     pub(super) fn drain(&self) {
         tracing::info!(computations = self.running.planning.busy(), "draining");
         self.running.draining.begin();
     }
 
-    /// The time for draining is nearly over.
+    /// The time for draining is nearly over: recall running computations.
     pub(super) fn finish_soon(&self) {
         tracing::warn!(computations = self.running.planning.busy(), "what still runs has to deliver the best so far");
         self.running.planning.finish_soon();

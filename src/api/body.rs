@@ -1,4 +1,4 @@
-//! Receives a request's body: its declared type, its size, the time it takes.
+//! Receives request bodies: checks media type and size, limits time and memory.
 
 use core::future::poll_fn;
 use core::ops::Deref;
@@ -16,14 +16,15 @@ use super::settings::ServerSettings;
 use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
-/// Bodies take room in pieces of so many bytes.
+/// The unit of body memory, bytes.
 const PIECE: usize = 1024;
-/// The room for all bodies together, in pieces: 64 MB, by default sixteen of the largest. Each connection could hold one.
+/// The memory for all bodies together, in units: 64 MB, by default sixteen of the largest. Each connection could hold
+/// one.
 const ROOM: usize = 64 * 1024;
-/// Pieces that cost nothing: most bodies have no more, and a connection itself takes about as much.
+/// Units that are not counted: most bodies have no more, and a connection itself takes about as much.
 const FREE: usize = 16;
 
-/// A body, and the room that it takes as long as it is kept.
+/// A body, and its share of the memory as long as it is kept.
 pub(super) struct Received {
     bytes: Vec<u8>,
     _room: Option<OwnedSemaphorePermit>,
@@ -39,7 +40,7 @@ impl Deref for Received {
 
 /// Receives the bodies of all requests.
 pub(super) struct Bodies {
-    /// In pieces.
+    /// In units.
     room: Arc<Semaphore>,
     max_bytes: usize,
     time_limit: Duration,
@@ -47,7 +48,7 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// There is always room for one of the largest.
+    /// There is always room for one of the largest bodies.
     pub(super) fn new(settings: &ServerSettings, metrics: Arc<Metrics>) -> Self {
         let (max_bytes, time_limit) = (settings.max_body_bytes, settings.body_timeout);
         let room = Arc::new(Semaphore::new(ROOM.max(max_bytes.div_ceil(PIECE))));
@@ -57,11 +58,12 @@ impl Bodies {
     /// The whole body of a request that declares JSON.
     ///
     /// # Errors
-    /// A problem if the type is another one, or the body is too large, too slow or incomplete, or there is no room for it.
+    /// A problem if the media type is another one, the body is too large, too slow or incomplete, or memory is short.
     pub(super) async fn receive(&self, request: Request<Body>) -> Result<Received, Problem> {
         check_type(request.headers())?;
         let max = self.max_bytes;
-        // A length that is too large is refused at once. A client that asks before it sends is never told to send.
+        // A declared length that is too large is refused at once. A client that waits for `100 Continue` then never
+        // sends.
         if request.body().size_hint().lower() > max as u64 {
             return Err(too_large(max));
         }
@@ -87,14 +89,14 @@ fn too_large(max: usize) -> Problem {
     Problem::new(ProblemKind::BodyTooLarge, format!("a body has at most {max} bytes"))
 }
 
-/// Why a body is not taken to its end.
+/// Why a body is not received completely.
 enum NotTaken {
     TooLarge,
     NoRoom,
     Broken(Problem),
 }
 
-/// What has been received so far.
+/// The part received so far.
 struct Intake<'a> {
     received: Vec<u8>,
     bodies: &'a Arc<Semaphore>,
@@ -102,7 +104,7 @@ struct Intake<'a> {
 }
 
 impl Intake<'_> {
-    /// Take in all of the body, at most so many bytes.
+    /// Receive all of the body, at most `max` bytes.
     async fn take(&mut self, mut body: Body, max: usize) -> Result<(), NotTaken> {
         while let Some(piece) = next(&mut body).await.map_err(NotTaken::Broken)? {
             let length = self.received.len() + piece.len();
@@ -117,7 +119,7 @@ impl Intake<'_> {
         Ok(())
     }
 
-    /// True if there is room for so many bytes.
+    /// True if there is memory for this many bytes.
     fn make_room(&mut self, length: usize) -> bool {
         let held = self.room.as_ref().map_or(0, OwnedSemaphorePermit::num_permits);
         let more = length.div_ceil(PIECE).saturating_sub(FREE).saturating_sub(held);
@@ -134,7 +136,7 @@ impl Intake<'_> {
     }
 }
 
-/// The next piece of data; trailers are passed over.
+/// The next data frame; trailers are skipped.
 async fn next(body: &mut Body) -> Result<Option<Bytes>, Problem> {
     loop {
         let Some(frame) = poll_fn(|context| Pin::new(&mut *body).poll_frame(context)).await else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! What a request needs where TLS is spoken.
+//! Requirements on requests to a TLS service: TLS, and a client certificate.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use crate::metrics::{Metrics, Refusal};
 use crate::tls::TlsSettings;
 use crate::wire::{Problem, ProblemKind};
 
-/// Paths that whoever looks after the service asks without a certificate.
+/// Probes, which need no client certificate.
 const PROBES: [&str; 2] = ["/livez", "/readyz"];
 
-/// What is asked of every request.
+/// The requirements.
 #[derive(Clone)]
 pub(super) struct Demands {
     tls: bool,
@@ -29,7 +29,7 @@ impl Demands {
     }
 }
 
-/// The middleware that lets nothing in that came without TLS.
+/// The middleware that refuses requests without TLS.
 pub(super) async fn over_tls(State(demands): State<Demands>, request: Request, next: Next) -> Response {
     if !demands.tls || request.extensions().get::<OverTls>().is_some() {
         return next.run(request).await;
@@ -37,7 +37,7 @@ pub(super) async fn over_tls(State(demands): State<Demands>, request: Request, n
     last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https"))
 }
 
-/// The middleware that asks for a client's certificate where one is needed.
+/// The middleware that requires a client certificate if one is needed.
 pub(super) async fn each_request(State(demands): State<Demands>, request: Request, next: Next) -> Response {
     if !demands.client_certificate || PROBES.contains(&request.uri().path()) {
         return next.run(request).await;
@@ -50,7 +50,7 @@ pub(super) async fn each_request(State(demands): State<Demands>, request: Reques
     let refused = |detail| Problem::new(ProblemKind::Unauthorized, detail);
     match shown {
         None => refused("no client certificate came").into_response(),
-        // On its next connection the client may show another one.
+        // On a new connection the client may show another one.
         Some(_) => last(refused("the client certificate holds no longer")),
     }
 }

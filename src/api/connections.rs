@@ -26,24 +26,24 @@ use super::transport::{self, OverTls, Transport};
 use super::unread::{self, Unread};
 use crate::tls::Acceptor;
 
-/// How long to wait after the system refused a connection, mostly for want of file descriptors.
+/// The pause after a failed accept, mostly for want of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
-/// How long a connection may rest between two requests. Longer than the usual client's, so that the client closes first
-/// and no request meets a closed door.
+/// How long a connection may be idle between two requests. Longer than in common clients, so that the client closes
+/// first and no request meets a closed connection.
 const IDLE_TIMEOUT: Duration = Duration::from_secs(75);
 
 /// The listener and all its connections. Dropping it ends them.
 pub(super) struct Connections {
     listener: TcpListener,
     app: Arc<App>,
-    /// Where TLS is spoken.
+    /// If TLS is on.
     tls: Option<Acceptor>,
     service: Router,
     slots: Arc<Semaphore>,
     open: JoinSet<()>,
-    /// How many connections have asked something. Once the service drains each of them ends by itself: at once if it
-    /// rests, with its answer if it waits for one.
+    /// The number of connections that have made a request. While the service drains, each ends by itself: at once if it
+    /// is idle, otherwise with its answer.
     asking: watch::Sender<usize>,
 }
 
@@ -68,17 +68,17 @@ impl Connections {
         }
     }
 
-    /// A connection from its beginning to its end.
+    /// Serves one connection.
     fn connection(&self, stream: TcpStream, slot: OwnedSemaphorePermit) -> impl Future<Output = ()> + use<> {
         let (app, service, asking) = (Arc::clone(&self.app), self.service.clone(), self.asking.clone());
         let tls = self.tls.clone();
         async move {
-            // Answers are small and waited for. A connection that keeps its delay serves all the same.
+            // Answers are small and awaited. If this fails, the connection works even so.
             let _ = stream.set_nodelay(true);
             let open = app.running.metrics.connection();
             let socket = Socket::new(stream, app.settings.write_timeout);
             let begun = match tls {
-                // Boxed: else every connection would keep the room that agreeing takes for as long as it lives.
+                // Boxed: otherwise every connection would keep the memory of the handshake.
                 Some(acceptor) => Box::pin(transport::secure(socket, &acceptor, app.settings.header_timeout)).await,
                 None => Ok((Box::new(socket) as Transport, None)),
             };
@@ -90,11 +90,11 @@ impl Connections {
         }
     }
 
-    /// Once the service drains: accept and serve until nobody waits for an answer and `also` is done. False if that takes
-    /// longer.
+    /// While the service drains: accept and serve until no answer is due and `also` is done. False if the deadline
+    /// comes first.
     pub(super) async fn answer_until(&mut self, deadline: Instant, also: impl Future<Output = ()>) -> bool {
         let mut asking = self.asking.subscribe();
-        // An error would mean that nobody counts any more.
+        // An error would mean that the counter is gone.
         let answered = async move { drop(asking.wait_for(|count| *count == 0).await) };
         let answered = async {
             tokio::join!(also, answered);
@@ -103,7 +103,7 @@ impl Connections {
     }
 }
 
-/// The next connection, once there is a slot for it.
+/// The next connection, once a slot is free.
 async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, OwnedSemaphorePermit) {
     loop {
         let Ok(slot) = Arc::clone(slots).acquire_owned().await else { continue };
@@ -117,7 +117,7 @@ async fn accept(listener: &TcpListener, slots: &Arc<Semaphore>) -> (TcpStream, O
     }
 }
 
-/// Answer what is asked over `stream`; each request gets the mark.
+/// Serve the requests on `stream`; each gets the mark.
 async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &App, asking: watch::Sender<usize>) {
     let (stream, quiet) = PatientStream::new(stream, app.settings.header_timeout);
     let (unread, max_body_bytes) = (Unread::default(), app.settings.max_body_bytes);
@@ -133,7 +133,7 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
         let answer = service.call(request);
         async move {
             let answer = match loan {
-                // Boxed: else every connection would keep the room for a body that few of its requests have.
+                // Boxed: otherwise every connection would keep memory for a body that few of its requests have.
                 Some(loan) => Box::pin(loan.settle(answer, &unread)).await,
                 None => answer.await,
             };
@@ -141,7 +141,7 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
             answer
         }
     });
-    // Whoever comes while the service drains has one request answered: most are probes.
+    // A new connection during draining gets one answer: most are probes.
     let lasting = !app.running.draining.begun();
     let mut builder = http1::Builder::new();
     builder.timer(TokioTimer::new()).header_read_timeout(IDLE_TIMEOUT).keep_alive(lasting);
@@ -154,17 +154,17 @@ async fn serve(stream: Transport, mark: Option<OverTls>, service: Router, app: &
             serving.await
         }
     };
-    // The service goes last: until the client has read its last answer the connection counts.
+    // The service is dropped last: the connection counts until the client has read its last answer.
     let Parts { io, service: _counted, .. } = connection.into_parts();
     end(io.into_inner().into_transport(), ended, unread.get(), app.settings.body_timeout).await;
 }
 
-/// End a connection so that its last answer can be read.
+/// Close a connection so that its last answer can be read.
 async fn end(mut stream: Transport, ended: hyper::Result<()>, unread: bool, patience: Duration) {
     if let Err(error) = ended {
         tracing::debug!(%error, "a connection ended early");
-        // Hyper refuses a head that is no HTTP/1.1 itself, but leaves HTTP/2 without a word. After any other error nobody
-        // takes an answer.
+        // Hyper itself refuses a head that is not HTTP/1.1, but closes on HTTP/2 without an answer. After any other
+        // error the client takes no answer.
         let told =
             error.is_parse() && (!error.is_parse_version_h2() || stream.write_all(&refusal::of_http_2()).await.is_ok());
         if !told {
@@ -173,7 +173,7 @@ async fn end(mut stream: Transport, ended: hyper::Result<()>, unread: bool, pati
     } else if !unread {
         return;
     }
-    // Boxed likewise.
+    // Boxed for the same reason.
     Box::pin(unread::close(stream, patience)).await;
 }
 

@@ -1,4 +1,4 @@
-//! Which pages may call from a browser (CORS). None, unless the operator lists where they come from.
+//! CORS: the origins whose pages may call from a browser. None, unless the operator lists them.
 
 use core::fmt;
 use core::str::FromStr;
@@ -8,15 +8,15 @@ use axum::http::{HeaderName, HeaderValue, Method, header};
 use tower_http::cors::{AllowOrigin, CorsLayer};
 use url::Url;
 
-/// How long a browser may remember what it was allowed: a change of the list is felt within the hour.
+/// How long a browser may cache a preflight: a change of the list takes effect within the hour.
 const MAX_AGE: Duration = Duration::from_secs(3600);
 
-/// Where pages may come from, each as browsers write it: `https://cell.example.com`.
+/// The allowed origins, each as browsers write it: `https://cell.example.com`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CorsOrigins(Vec<String>);
 
 impl CorsOrigins {
-    /// What answers browsers, where any page may call. It also answers what they ask beforehand, which has no key.
+    /// The CORS layer, if any origin is allowed. It also answers preflight requests, which have no key.
     pub(super) fn layer(&self) -> Option<CorsLayer> {
         if self.0.is_empty() {
             return None;
@@ -46,13 +46,13 @@ impl FromStr for CorsOrigins {
     }
 }
 
-/// One entry, if it is what a browser sends.
+/// One origin, if it is written as browsers send it.
 fn origin(text: &str) -> Result<String, String> {
     if text.contains('*') {
         return Err("'*' would let in pages that nobody knows; list each origin".to_owned());
     }
     let url = Url::parse(text).ok().filter(|url| ["http", "https"].contains(&url.scheme()));
-    // Compared letter by letter, so anything that a browser would write otherwise would never match.
+    // Origins are compared as text, so one that browsers write differently would never match.
     match url.map(|url| url.origin().ascii_serialization()) {
         Some(origin) if origin == text => Ok(origin),
         Some(origin) => Err(format!("'{text}' is no origin; browsers write {origin}")),

@@ -1,4 +1,4 @@
-//! `GET /openapi.json`, `/docs/`: the interface document, and the same as a page. All its files are in the binary.
+//! `GET /openapi.json`, `/docs/`: the interface document, as JSON and as a page. All files are in the binary.
 
 use std::sync::{Arc, LazyLock};
 
@@ -12,12 +12,12 @@ use super::problem::not_found;
 use crate::computation::internal;
 use crate::wire::{AnyObject, Problem};
 
-// The page's own validator lives on the internet, so it stays off.
+// The page's validator is a service on the internet, so it is off.
 static CONFIG: LazyLock<Arc<Config<'static>>> =
     LazyLock::new(|| Arc::new(Config::from("../openapi.json").validator_url("none").use_base_layout()));
 
-/// Gives the text of the interface document. The document names every operation, the one that serves it too: that one gets
-/// the text in this way because it must not name the document in turn.
+/// Gives the text of the interface document. The document names every operation, also the one that serves it; that
+/// operation gets the text this way, since it must not name the document in turn.
 #[derive(Clone, Copy)]
 pub(super) struct DocumentText(pub(super) fn() -> &'static str);
 
@@ -31,12 +31,12 @@ pub(super) async fn document(State(DocumentText(text)): State<DocumentText>) -> 
     ([(header::CONTENT_TYPE, "application/json")], text())
 }
 
-/// Until `/` has a page of its own.
+/// Redirects until `/` has a page of its own.
 pub(super) async fn from_root() -> Redirect {
     Redirect::temporary("/docs/")
 }
 
-/// The page's files are named relative to the folder.
+/// The page's files are relative to the folder.
 pub(super) async fn to_folder() -> Redirect {
     Redirect::permanent("/docs/")
 }

@@ -63,12 +63,12 @@ pub fn openapi() -> utoipa::openapi::OpenApi {
     document
 }
 
-/// What the scheme is called in the document, and what is said of it.
+/// The name and the description of the security scheme.
 const SCHEME: &str = "bearer";
 const BEARER: &str = "A key of the operator's. The words beside it name what the key must be for. A service that runs \
     without keys asks for none, hence the empty alternative.";
 
-/// Say what an operation needs of a key, and what is answered where it is not given.
+/// Describe the access that an operation needs, and its problems.
 fn describe_need(need: Need, item: &mut PathItem) {
     let (security, problems) = match need {
         Need::Nothing => return,
@@ -78,7 +78,7 @@ fn describe_need(need: Need, item: &mut PathItem) {
             (scopes.iter().map(one).collect::<Vec<_>>(), &KEY_PROBLEMS[..])
         }
     };
-    // One document for every service, with keys or without: a client made from either knows where its key goes.
+    // One document for all services, with keys or without: clients generated from it can send a key in both cases.
     let security = [&[SecurityRequirement::default()], &security[..]].concat();
     for operation in operations(item) {
         operation.security = Some(security.clone());
@@ -95,7 +95,7 @@ fn describe_need(need: Need, item: &mut PathItem) {
     }
 }
 
-/// The derive makes "text or null" of a header that may be absent, but a header is never null.
+/// The derive types an optional header as "text or null", but a header is never null.
 fn describe_parameters(item: &mut PathItem) {
     for parameter in operations(item).filter_map(|operation| operation.parameters.as_mut()).flatten() {
         if let RefOr::T(Parameter { schema: Some(RefOr::T(Schema::Object(schema))), .. }) = parameter
@@ -133,7 +133,7 @@ pub fn openapi_json() -> String {
     text
 }
 
-/// What is said of the problems of keys: first those of any key.
+/// The descriptions of key problems, those of any key first.
 const KEY_PROBLEMS: [(ProblemKind, &str, &str); 3] = [
     (ProblemKind::Unauthorized, "No key, or one that does not hold.", "there is no such key, or no longer"),
     (
@@ -144,7 +144,7 @@ const KEY_PROBLEMS: [(ProblemKind, &str, &str); 3] = [
     (ProblemKind::Forbidden, "The key is for something else.", "this needs a key for plan"),
 ];
 
-/// The same text, written once.
+/// The same text, built once.
 pub(super) fn served() -> &'static str {
     static SERVED: LazyLock<String> = LazyLock::new(openapi_json);
     &SERVED

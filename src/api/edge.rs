@@ -1,4 +1,4 @@
-//! What each request leaves behind: one line in the log, one measurement, and a span where traces are collected.
+//! One log line, one metric, and with tracing one span per request.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -20,13 +20,13 @@ use crate::wire::Cause;
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 const TRACEPARENT: HeaderName = HeaderName::from_static("traceparent");
 
-/// The longest request id that is taken over from a client, characters.
+/// The longest request id accepted from a client, characters.
 const MAX_REQUEST_ID: usize = 128;
 
-/// The longest path or method that is logged, characters: room for every path that there is, with a job's id.
+/// The longest path or method that is logged, characters: enough for every path of ours, with a job's id.
 const MAX_SHOWN: usize = 128;
 
-/// Tells of the request once it is answered, or once its client has hung up.
+/// Records the request once it is answered, or its client has hung up.
 struct Trail {
     line: Span,
     span: Option<RequestSpan>,
@@ -36,7 +36,7 @@ struct Trail {
     uri: Uri,
     started: Instant,
     status: Option<StatusCode>,
-    /// Which problem was answered.
+    /// The kind of the problem in the answer.
     cause: Option<Cause>,
 }
 
@@ -59,7 +59,7 @@ impl Drop for Trail {
     }
 }
 
-/// The middleware round every handler.
+/// The middleware around every handler.
 pub(super) async fn each_request(State(metrics): State<Arc<Metrics>>, request: Request<Body>, next: Next) -> Response {
     let started = Instant::now();
     let (id, method) = (request_id(&request), request.method().clone());
@@ -92,12 +92,12 @@ pub(super) async fn each_request(State(metrics): State<Arc<Metrics>>, request: R
     response
 }
 
-/// The route, without anything of the request's own.
+/// The route's template, without the request's own parts.
 fn template(path: Option<&MatchedPath>) -> &str {
     path.map_or("unmatched", MatchedPath::as_str)
 }
 
-/// What a client calls something, as the log has it: not without end, and without what may be a key.
+/// A client's text for the log: bounded in length, and without possible keys.
 fn shown(text: &str) -> String {
     let text = without_keys(text);
     match text.char_indices().nth(MAX_SHOWN) {
@@ -106,10 +106,10 @@ fn shown(text: &str) -> String {
     }
 }
 
-/// The client's own id if it is a decent one, a new one otherwise.
+/// The client's request id if it is valid, otherwise a new one.
 fn request_id(request: &Request<Body>) -> HeaderValue {
     static NEXT: AtomicU64 = AtomicU64::new(0);
-    // Ids of two runs of the service must differ; its start time tells them apart.
+    // Ids must differ between runs of the service, so they hold its start time.
     static START: LazyLock<u64> = LazyLock::new(|| {
         let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         since.as_secs() * 1000 + u64::from(since.subsec_millis())

@@ -1,5 +1,5 @@
-//! The examples of the interface document. The answer to an example request is computed from it, so that the two belong
-//! together: statistics, times and the names of jobs are all that is made up.
+//! The examples of the interface document. Answers are computed from the example requests, so that they match; only
+//! statistics, times and job ids are made up.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ use singulate_planner::budget::Budget;
 use singulate_planner::plan::known;
 use singulate_planner::search::SILENT;
 
-/// Give every body of the document its example; that of `SceneBody` is there already.
+/// Give every body of the document its example; `SceneBody` has one already.
 pub(super) fn add(document: &mut OpenApi) {
     let schemas = &mut document.components.get_or_insert_default().schemas;
     let scene = scene(schemas);
@@ -46,7 +46,7 @@ pub(super) fn add(document: &mut OpenApi) {
             object.example = Some(example);
         }
     }
-    // These answer with a job that has no result yet.
+    // These answer with a job without a result.
     for (path, job) in [("/v1/jobs", queued), ("/v1/jobs/{id}/cancel", cancelled)] {
         let operation = document.paths.paths.get_mut(path).and_then(|item| item.post.as_mut());
         if let Some(content) = operation.and_then(accepted) {
@@ -55,17 +55,17 @@ pub(super) fn add(document: &mut OpenApi) {
     }
 }
 
-/// When the example job began, ended, and is forgotten.
+/// When the example job began, ended, and expires.
 const BEGUN: &str = "2026-01-05T09:30:00.004Z";
 const ENDED: &str = "2026-01-05T09:30:00.012Z";
 const FORGOTTEN: &str = "2026-01-05T10:30:00.012Z";
 
-/// What the service says of a scene.
+/// The answers to one scene.
 struct Answers {
     plan: Value,
     survey: Value,
     knowledge: Value,
-    /// The scene with the plan.
+    /// The scene with its plan.
     verify: Value,
     verification: Value,
 }
@@ -96,7 +96,7 @@ fn value(body: &impl Serialize) -> Value {
     serde_json::to_value(body).expect("a body is JSON")
 }
 
-/// The scene that all examples are about.
+/// The scene of all examples.
 fn scene(schemas: &BTreeMap<String, RefOr<Schema>>) -> Value {
     let Some(RefOr::T(Schema::Object(scene))) = schemas.get("SceneBody") else { return Value::Null };
     scene.example.clone().unwrap_or_default()
@@ -111,7 +111,7 @@ fn with(object: &Value, fields: Value) -> Value {
     object
 }
 
-/// The example of what an operation answers with 202.
+/// The example of an operation's 202 answer.
 fn accepted(operation: &mut Operation) -> Option<&mut Option<Value>> {
     let RefOr::T(response) = operation.responses.responses.get_mut("202")? else { return None };
     let RefOr::T(content) = response.content.get_mut("application/json")? else { return None };

@@ -1,19 +1,19 @@
-//! Header fields for browsers: what an answer may do there, and who may keep it.
+//! Security and caching headers for browsers.
 
 use axum::body::Body;
 use axum::http::{HeaderName, HeaderValue, Request, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-/// An answer is data: it loads nothing, runs nothing and stands in nobody's frame. A drawing has attributes, no styles.
+/// Answers are data: they load nothing, run nothing, and are in no frame. A drawing has attributes, no styles.
 const DATA_POLICY: &str = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The page of the interface document has scripts and styles of its own, writes further styles while it runs, and calls
-/// this service. Its stylesheet holds pictures.
+/// The page of the interface document has its own scripts and styles, adds styles while it runs, and calls this
+/// service. Its stylesheet holds pictures.
 const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
     img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What every answer has that is data.
+/// The headers of all data answers.
 pub(super) const OF_DATA: [(HeaderName, &str); 4] = [
     (header::CONTENT_SECURITY_POLICY, DATA_POLICY),
     (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
@@ -25,7 +25,7 @@ pub(super) const OF_DATA: [(HeaderName, &str); 4] = [
 pub(super) async fn add(request: Request<Body>, next: Next) -> Response {
     let path = request.uri().path();
     let page = path.starts_with("/docs/");
-    // What a key opens is not for whoever shares a cache with its holder.
+    // Answers that need a key must not be stored in shared caches.
     let private = path.starts_with("/v1/") || ["/metrics", "/version"].contains(&path);
     let mut response = next.run(request).await;
     let headers = response.headers_mut();

@@ -1,4 +1,5 @@
-//! The HTTP interface: one file a resource, every route in `operations` and [`router`], every problem's answer in `problem`.
+//! The HTTP interface: one file per resource; every route is in `operations` and [`router`], every problem response in
+//! `problem`.
 
 mod accept;
 mod access;

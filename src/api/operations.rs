@@ -1,4 +1,4 @@
-//! Every operation that the interface document describes, each with what it needs of a key.
+//! Every operation in the interface document, with the access that it needs.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ const JOBS: Need = Need::OneOf(&[Scope::Jobs]);
 const READ_JOBS: Need = Need::OneOf(&[Scope::ReadOnly, Scope::Jobs]);
 const METRICS: Need = Need::OneOf(&[Scope::Metrics]);
 
-/// All that the operations work on. Each gets the one part of it that it names.
+/// The state of the operations. Each extracts the part that it needs.
 #[derive(Clone)]
 pub(super) struct Parts {
     pub(super) planning: Arc<PlanningCalls>,

@@ -1,8 +1,8 @@
-//! The stream of a connection, with what hyper lacks.
+//! The stream of a connection, with timeouts and problems that hyper lacks.
 //!
-//! A request's head gets a short time and the pause between two requests a long one. Hyper has one time for both: short
-//! enough for slow heads, it would close a robot's idle connection just as it calls again. And where hyper refuses a head on
-//! its own, without a body, a problem goes out instead.
+//! A request's head gets a short timeout, an idle connection a long one. Hyper has one timeout for both: short enough
+//! for slow heads, it would close a robot's idle connection just as it calls again. And where hyper refuses a head
+//! itself, without a body, a problem is sent instead.
 
 use core::pin::Pin;
 use core::task::{Context, Poll, ready};
@@ -17,7 +17,7 @@ use tokio::time::{Sleep, sleep};
 use super::refusal;
 use super::transport::Transport;
 
-/// Whether no request is in hand. Shared by the stream and the service on top of it.
+/// Whether no request is in progress. Shared by the stream and the service above it.
 #[derive(Clone)]
 pub(super) struct Quiet(Arc<AtomicBool>);
 
@@ -33,7 +33,7 @@ impl Quiet {
     }
 }
 
-/// A request in hand, until its body has come and it is answered.
+/// A request in progress, until its body has come and it is answered.
 pub(super) struct Busy(Quiet);
 
 impl Drop for Busy {
@@ -47,26 +47,26 @@ pub(super) struct PatientStream {
     stream: Transport,
     quiet: Quiet,
     head_patience: Duration,
-    /// Runs while a head has begun and is not complete.
+    /// Runs while a head is incomplete.
     head: Option<Pin<Box<Sleep>>>,
-    /// The rest of a problem that stands for a refusal of hyper's.
+    /// The rest of a problem that replaces a refusal by hyper.
     owed: Vec<u8>,
 }
 
 impl PatientStream {
-    /// The first head is due within this time from now, each later one from its first byte.
+    /// The first head is due within this time from now, each later one within this time of its first byte.
     pub(super) fn new(stream: Transport, head_patience: Duration) -> (Self, Quiet) {
         let quiet = Quiet(Arc::new(AtomicBool::new(true)));
         let head = Some(Box::pin(sleep(head_patience)));
         (Self { stream, quiet: quiet.clone(), head_patience, head, owed: Vec::new() }, quiet)
     }
 
-    /// The stream below, for which no time is kept.
+    /// The stream below, without timeouts.
     pub(super) fn into_transport(self) -> Transport {
         self.stream
     }
 
-    /// An error once the head that has begun is overdue.
+    /// An error once the current head is overdue.
     fn check_head(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
         match &mut self.head {
             Some(timer) => timer.as_mut().poll(context).map(|()| Err(ErrorKind::TimedOut.into())),
@@ -118,7 +118,7 @@ impl AsyncWrite for PatientStream {
         context: &mut Context<'_>,
         slices: &[IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        // A refusal has no body and so is one piece.
+        // A refusal has no body, so it is one slice.
         if let [bytes] = slices {
             return self.poll_write(context, bytes);
         }

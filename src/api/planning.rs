@@ -16,14 +16,14 @@ use crate::computation::calls::{Knowledge, Plan, Survey, Verification};
 use crate::computation::{Computation, Form, Planning};
 use crate::wire::{AnswerBody, KnowledgeBody, Problem, SceneBody, SurveyBody, VerificationBody, VerifyBody};
 
-/// What the planning calls share.
+/// The state of the planning calls.
 pub(super) struct PlanningCalls {
     pub(super) planning: Arc<Planning>,
     pub(super) bodies: Arc<Bodies>,
 }
 
 impl PlanningCalls {
-    /// Answer in the form that the client likes best of those that there are.
+    /// Answer in the client's preferred form.
     async fn answer<C: Computation>(
         &self,
         caller: &Caller,

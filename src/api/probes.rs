@@ -1,4 +1,4 @@
-//! `GET /livez`, `/readyz`, `/version`, `/metrics`: for whoever watches the service.
+//! `GET /livez`, `/readyz`, `/version`, `/metrics`: probes and monitoring.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ pub(super) struct VersionBody {
     version: &'static str,
 }
 
-/// How long the store of jobs may take to answer a probe; probes themselves wait for about a second.
+/// How long a probe waits for the store of jobs; probers wait for about a second.
 const STORE_PATIENCE: Duration = Duration::from_millis(500);
 
 const OK: Json<ProbeBody> = Json(ProbeBody { status: "ok" });
@@ -89,7 +89,7 @@ pub(super) async fn metrics(State(running): State<Arc<Running>>) -> impl IntoRes
     let Running { planning, store, runner, metrics, .. } = &*running;
     metrics.set_busy(Queue::Plan, planning.busy());
     metrics.set_busy(Queue::Job, runner.busy());
-    // Where the store does not answer, what it said last still stands.
+    // If the store does not answer, its last counts remain.
     if let Ok(Ok(Counts { queued, running })) = timeout(STORE_PATIENCE, store.counts()).await {
         metrics.set_jobs(queued, running);
     }

@@ -1,4 +1,4 @@
-//! Problems as responses: their headers, and when to come again.
+//! Problems as responses, with their headers and `Retry-After`.
 
 use core::any::Any;
 use core::time::Duration;
@@ -13,13 +13,14 @@ use crate::wire::{Problem, ProblemKind};
 /// The media type of a problem document.
 pub(super) const PROBLEM_JSON: &str = "application/problem+json";
 
-/// How whoever has no key learns what is asked for (RFC 6750, section 3).
+/// The challenge to a caller without a key (RFC 6750, section 3).
 pub(super) const CHALLENGE: &str = "Bearer realm=\"singulate\"";
 
-/// When a client that was refused may come again where nothing else is known.
+/// The default `Retry-After` of a refusal.
 const RETRY_AFTER: Duration = Duration::from_secs(1);
 
-/// No estimate is worth more than this: by then all that waits now is over, for no time limit is longer by default.
+/// The longest `Retry-After` from a forecast: by then the whole queue has timed out, since no time limit is longer by
+/// default.
 const MAX_RETRY_AFTER: Duration = Duration::from_secs(60);
 
 impl IntoResponse for Problem {
@@ -29,9 +30,9 @@ impl IntoResponse for Problem {
         let cause = self.cause();
         let retry_after = comes_again(kind).then(|| seconds(&self));
         let close = match kind {
-            // The rest of the body may still be on its way.
+            // The rest of the body may still be in transit.
             ProblemKind::BodyTimeout | ProblemKind::BodyTooLarge => true,
-            // Another process may answer on the next connection.
+            // A new connection may reach another process.
             ProblemKind::NotReady => true,
             _ => false,
         };
@@ -53,16 +54,16 @@ impl IntoResponse for Problem {
     }
 }
 
-/// True if the same request may be answered later.
+/// True if the same request may succeed later.
 pub(super) fn comes_again(kind: ProblemKind) -> bool {
     use ProblemKind::{NotReady, Overloaded, RateExceeded, StoreUnavailable};
     matches!(kind, Overloaded | NotReady | StoreUnavailable | RateExceeded)
 }
 
-/// When to come again, in whole seconds, rounded up.
+/// `Retry-After` in whole seconds, rounded up.
 fn seconds(problem: &Problem) -> u64 {
     let after = problem.retry_after().unwrap_or(RETRY_AFTER).max(RETRY_AFTER);
-    // The moment at which a key may be used again is no estimate.
+    // The time from a key's rate is exact, not a forecast.
     let after = if problem.kind() == ProblemKind::RateExceeded { after } else { after.min(MAX_RETRY_AFTER) };
     after.as_secs() + u64::from(after.subsec_nanos() > 0)
 }
@@ -76,12 +77,12 @@ pub(super) fn panicked(panic: Box<dyn Any + Send + 'static>) -> Response {
     internal().into_response()
 }
 
-/// No such path.
+/// Unknown path.
 pub(super) async fn not_found() -> Problem {
     Problem::new(ProblemKind::NotFound, "see /openapi.json for what lives here")
 }
 
-/// No such method; the router adds `Allow`.
+/// Wrong method; the router adds `Allow`.
 pub(super) async fn method_not_allowed() -> Problem {
     Problem::new(ProblemKind::MethodNotAllowed, "see the header Allow")
 }

@@ -1,12 +1,11 @@
-//! Heads that are no HTTP are refused by hyper itself, with a status and nothing else; here they get their problem.
+//! Replaces hyper's own refusals of bad heads, which have a status and no body, by problems.
 
 use crate::wire::{Problem, ProblemKind};
 
 use super::headers::OF_DATA;
 use super::problem::PROBLEM_JSON;
 
-/// The problem, as a whole response, that stands for these bytes if they are a refusal without a body. Every refusal of
-/// our own has one.
+/// The problem response that replaces these bytes, if they are a refusal without a body. All our own refusals have one.
 pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
     let head = bytes.strip_suffix(b"\r\n\r\n").and_then(|head| core::str::from_utf8(head).ok())?;
     let (status_line, fields) = head.split_once("\r\n")?;
@@ -24,14 +23,14 @@ pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
     Some(response(status_line, &kept.join("\r\n"), &Problem::new(kind, detail)))
 }
 
-/// The answer to a client that begins with HTTP/2. Such clients recognise HTTP/1.1 and name it in their error.
+/// The answer to a client that starts with HTTP/2. Such clients recognise HTTP/1.1 and name it in their error.
 pub(super) fn of_http_2() -> Vec<u8> {
     let detail = "this service speaks HTTP/1.1 and no HTTP/2";
     response("HTTP/1.1 400 Bad Request", "connection: close", &Problem::new(ProblemKind::MalformedHttp, detail))
 }
 
 fn response(status_line: &str, fields: &str, problem: &Problem) -> Vec<u8> {
-    // Words and a number: they can be written.
+    // Only strings and numbers, so it can be written.
     let body = serde_json::to_string(problem).unwrap_or_default();
     let length = body.len();
     let policy: String = OF_DATA.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();

@@ -1,4 +1,4 @@
-//! The problems that a request may meet, as the interface document describes them.
+//! The possible problems of a request, for the interface document.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::wire::{Problem, ProblemKind};
 /// The problems of every request with a body.
 pub(super) struct RequestProblems;
 
-/// What is said of each problem, and its detail in the example. The schema's own example is the 422.
+/// Each problem's description and example detail. The schema's own example is the 422.
 const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
     (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
     (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
@@ -50,7 +50,7 @@ impl IntoResponses for RequestProblems {
     }
 }
 
-/// How a problem is described, by an example of it.
+/// A problem's description with an example.
 pub(super) fn problem(example: &Problem, description: &str) -> Response {
     let mut content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
     if example.kind() != ProblemKind::InvalidRequest {

@@ -1,4 +1,4 @@
-//! The routes of the service, and the layers round them.
+//! The routes of the service, and their middleware.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub fn router(app: Arc<App>) -> Router {
         .method_not_allowed_fallback(problem::method_not_allowed)
         .layer(CatchPanicLayer::custom(problem::panicked))
         .layer(from_fn_with_state(demands.clone(), certificate::each_request));
-    // What a browser asks ahead of a call comes without key and certificate.
+    // Preflight requests of browsers have no key and no certificate.
     let router = match app.settings.cors_origins.layer() {
         Some(cors) => router.layer(cors),
         None => router,
@@ -37,7 +37,7 @@ pub fn router(app: Arc<App>) -> Router {
     router.layer(told).with_state(app.parts.clone())
 }
 
-/// The operations, each behind what it needs of a key.
+/// The operations, each behind its access check.
 fn guarded(app: &App) -> Router<Parts> {
     let guarded = operations().into_iter().fold(OpenApiRouter::new(), |router, (need, (schemas, paths, route))| {
         let route = match need {

@@ -1,4 +1,4 @@
-//! What runs in the service, whatever is asked of it.
+//! The running parts of the service, independent of requests.
 
 use std::io;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::jobs::{self, Runner, Store};
 use crate::metrics::Metrics;
 use crate::workers::Draining;
 
-/// The planning threads, the store of jobs and its workers, what is measured, and the word that it all ends.
+/// The planning threads, the store of jobs and its workers, the metrics, and the shutdown signal.
 pub(super) struct Running {
     pub(super) planning: Arc<Planning>,
     pub(super) store: Arc<dyn Store>,
@@ -19,10 +19,10 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// Opens the store of jobs and starts the threads.
+    /// Open the store of jobs and start the threads.
     ///
     /// # Errors
-    /// If the store can't be opened, or the system gives no thread.
+    /// If the store can't be opened, or a thread can't be started.
     pub(super) async fn start(settings: &ServerSettings, engine: Engine, metrics: Arc<Metrics>) -> io::Result<Self> {
         let draining = Draining::default();
         let store = jobs::open(&settings.jobs, Arc::clone(&metrics)).await.map_err(io::Error::other)?;
@@ -33,7 +33,7 @@ impl Running {
         Ok(Self { planning: Arc::new(planning), store, runner: Arc::new(runner), metrics, draining })
     }
 
-    /// True if new requests are welcome.
+    /// True if new requests are accepted.
     pub(super) fn ready(&self) -> bool {
         !self.draining.begun() && self.planning.ready() && self.runner.ready()
     }

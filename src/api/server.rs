@@ -1,4 +1,4 @@
-//! The service from its start to its end.
+//! The service from start to shutdown.
 
 use core::pin::{Pin, pin};
 use core::time::Duration;
@@ -19,14 +19,14 @@ use crate::computation::{Engine, Planning};
 use crate::jobs::{self, CallbackDelivery};
 use crate::tls::Certificates;
 
-/// The share of the time for draining after which what still runs is to deliver the best so far. The rest is for those
-/// answers to be written, and taken.
+/// The share of the drain time after which running computations are recalled. The rest is for their answers to be
+/// written and read.
 const RUNNING_SHARE: f64 = 0.9;
 
-/// How long a cancelled computation is waited for where the time for draining is over. Cancelling frees a core within 20 ms.
+/// How long cancelled computations are waited for after draining. Cancelling frees a core within 20 ms.
 const LAST_LOOK: Duration = Duration::from_secs(1);
 
-/// A service that has all it needs but a place to listen: nobody can reach it, and it has taken no job.
+/// A prepared service that does not listen yet: it has accepted no connection and claimed no job.
 pub struct Server {
     app: Arc<App>,
     certificates: Option<Certificates>,
@@ -34,11 +34,11 @@ pub struct Server {
 }
 
 impl Server {
-    /// Read the files, open the store of jobs, start the threads. `None` where `shutdown` was done before that: a store that
-    /// can't be reached is not waited for.
+    /// Read the files, open the store of jobs, start the threads. `None` if `shutdown` was done before that, so that an
+    /// unreachable store does not delay it.
     ///
     /// # Errors
-    /// If the system gives no threads, the files with keys or certificates are faulty, or the store of jobs can't be opened.
+    /// If a thread can't be started, key or certificate files are invalid, or the store of jobs can't be opened.
     pub async fn open(
         settings: ServerSettings,
         engine: Engine,
@@ -68,7 +68,7 @@ impl Server {
         close(&app).await;
     }
 
-    /// End without having served: the store of jobs is closed in order.
+    /// End without having served: closes the store of jobs.
     pub async fn close(self) {
         close(&self.app).await;
     }
@@ -92,7 +92,7 @@ pub async fn run(
     run_with(listener, settings, Engine::default(), shutdown).await
 }
 
-/// [`run`] with other computations than the planner's.
+/// [`run`] with a replaced engine.
 ///
 /// # Errors
 /// Those of [`Server::open`].
@@ -109,13 +109,13 @@ pub async fn run_with(
     Ok(())
 }
 
-/// What goes on behind the requests: workers for jobs, and callbacks.
+/// The background tasks: job workers and callbacks.
 struct Background {
     jobs: TaskTracker,
-    /// Whoever still has a job then hands it back.
+    /// Workers then hand back their jobs.
     over: CancellationToken,
     callbacks: TaskTracker,
-    /// No callback is tried any more.
+    /// Callbacks then stop.
     silence: CancellationToken,
 }
 
@@ -133,8 +133,8 @@ impl Background {
     }
 }
 
-/// Answer what has been asked and end what runs, within the time for draining. Connections are accepted all the while, so
-/// that probes see that the service is not ready; what would begin anew is refused.
+/// Answer open requests and end running work, within the drain time. Connections are still accepted, so that probes see
+/// that the service is not ready; new work is refused.
 async fn drain(app: &Arc<App>, mut connections: Connections, background: &Background) {
     let began = Instant::now();
     let (last_words, end) = (began + app.settings.drain.mul_f64(RUNNING_SHARE), began + app.settings.drain);
@@ -146,15 +146,15 @@ async fn drain(app: &Arc<App>, mut connections: Connections, background: &Backgr
             tracing::warn!("some clients did not take their answers, or some jobs could not be handed back");
         }
     }
-    // Whoever is connected still has asked nothing, or takes no answer.
+    // The remaining connections have made no request, or don't read their answer.
     drop(connections);
     background.silence.cancel();
     background.callbacks.wait().await;
     end_computations(&app.running.planning, end.max(Instant::now() + LAST_LOOK)).await;
 }
 
-/// Every caller has gone, so what still runs is cancelled and ends within milliseconds. Should it not, the process takes it
-/// along.
+/// All callers are gone, so running computations are cancelled and end within milliseconds. If one does not, the
+/// process ends it.
 async fn end_computations(planning: &Arc<Planning>, end: Instant) {
     let own = Arc::clone(planning);
     if timeout_at(end, spawn_blocking(move || own.join())).await.is_err() {

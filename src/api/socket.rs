@@ -1,7 +1,7 @@
-//! The socket of a connection: a client that takes nothing is not waited for.
+//! The socket of a connection, with a write timeout.
 //!
-//! Time is kept here, below TLS, for TLS hides what the client takes: it accepts bytes while it has room for them, and
-//! then still has to bring them to the client when nothing more is written.
+//! The timeout is here, below TLS, because TLS hides what the client reads: it buffers writes, and must still bring
+//! them to the client when nothing more is written.
 
 use core::pin::Pin;
 use core::task::{Context, Poll};
@@ -16,23 +16,23 @@ use tokio::time::{Sleep, sleep};
 pub(super) struct Socket {
     stream: TcpStream,
     patience: Duration,
-    /// Runs while the client takes nothing.
+    /// Runs while the client reads nothing.
     stuck: Option<Pin<Box<Sleep>>>,
 }
 
 impl Socket {
-    /// A client may take nothing for so long.
+    /// `patience` is how long a client may read nothing.
     pub(super) fn new(stream: TcpStream, patience: Duration) -> Self {
         Self { stream, patience, stuck: None }
     }
 
-    /// The first byte that the client has sent, left where it is; none where it sends nothing more.
+    /// Peeks at the client's first byte; `None` at the end of the stream.
     pub(super) async fn first_byte(&self) -> io::Result<Option<u8>> {
         let mut byte = [0];
         Ok((self.stream.peek(&mut byte).await? == 1).then_some(byte[0]))
     }
 
-    /// The outcome of a write, or an error where the client has taken nothing for too long.
+    /// The outcome of a write, or an error if the client has read nothing for too long.
     fn check<T>(&mut self, written: Poll<io::Result<T>>, context: &mut Context<'_>) -> Poll<io::Result<T>> {
         if written.is_ready() {
             self.stuck = None;
@@ -93,7 +93,7 @@ mod tests {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let silent = TcpStream::connect(listener.local_addr().unwrap()).await.unwrap();
         let socket = Socket::new(listener.accept().await.unwrap().0, Duration::from_millis(50));
-        // Takes what is written at once and brings it to the socket when it is flushed, as TLS does.
+        // Buffers writes until they are flushed, as TLS does.
         let mut above = BufWriter::with_capacity(100_000, socket);
         let stuck = loop {
             above.write_all(&[0; 50_000]).await.unwrap();

@@ -1,4 +1,4 @@
-//! What HTTP is spoken over: a socket, or TLS over a socket.
+//! The stream below HTTP: a socket, or TLS over a socket.
 
 use core::time::Duration;
 use std::io;
@@ -10,33 +10,33 @@ use tokio::time::timeout;
 use super::socket::Socket;
 use crate::tls::{Accepted, Acceptor, ClientCertificate};
 
-/// Where the bytes of a request come from, and those of its answer go.
+/// The stream of a request and its answer.
 pub(super) type Transport = Box<dyn Bytes>;
 
-/// Bytes in both directions.
+/// A stream of bytes in both directions.
 pub(super) trait Bytes: AsyncRead + AsyncWrite + Send + Unpin {}
 
 impl<S: AsyncRead + AsyncWrite + Send + Unpin> Bytes for S {}
 
-/// A mark on requests that came over TLS.
+/// Marks requests that came over TLS.
 #[derive(Clone)]
 pub(super) struct OverTls {
-    /// What the client has shown.
+    /// The client's certificate.
     pub(super) client_certificate: Option<Arc<ClientCertificate>>,
 }
 
-/// Agree with a client on TLS, for no longer than this. One that speaks HTTP as if there were no TLS is let through without
-/// the mark, to be told so in words that it understands.
+/// Do the TLS handshake, within this time. A client that speaks plain HTTP is let through without the mark, so that it
+/// gets a readable refusal.
 ///
 /// # Errors
-/// If the client speaks neither, or shows a certificate of a stranger, or takes too long.
+/// If the client speaks neither, shows a certificate of an unknown authority, or takes too long.
 pub(super) async fn secure(
     socket: Socket,
     acceptor: &Acceptor,
     patience: Duration,
 ) -> io::Result<(Transport, Option<OverTls>)> {
     let agreeing = async {
-        // Every method of HTTP begins with a capital letter, no record of TLS does.
+        // Every HTTP method begins with a capital letter, no TLS record does.
         if socket.first_byte().await?.is_some_and(|byte| byte.is_ascii_uppercase()) {
             return Ok((Box::new(socket) as Transport, None));
         }

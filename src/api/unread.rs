@@ -1,11 +1,10 @@
-//! Request bodies that nobody reads to their end: those of refusals that need no body, and of requests that should have
-//! none.
+//! Request bodies that are not read to their end: of refusals that need no body, and of requests that should have none.
 //!
-//! Hyper closes the connection of such a request without announcing it. The client's next request is lost; while megabytes
-//! are still on their way the answer is lost too, because the system resets a connection that is closed with unread bytes.
-//! So one layer below the handlers takes the rest of every body and drops it. The answer waits a moment for that. If the
-//! rest does not come in time, or is too long, the answer says `Connection: close`, and the connection lingers: it takes
-//! what the client still sends until the client closes.
+//! Hyper closes the connection of such a request without announcing it. The client's next request is lost. While
+//! megabytes are still in transit the answer is lost too, because the system resets a connection that is closed with
+//! unread bytes. So a layer below the handlers reads and drops the rest of every body. The answer waits briefly for
+//! that. If the rest is late or too long, the answer says `Connection: close`, and the connection lingers: it reads
+//! until the client closes.
 
 use core::future::poll_fn;
 use core::pin::{Pin, pin};
@@ -23,16 +22,16 @@ use tokio::time::timeout;
 
 use super::transport::Transport;
 
-/// How long an answer waits for the rest of a body: time for packets that are lost and sent again. A client that waits for
-/// its answer before it sends the body gets the answer after this time.
+/// How long an answer waits for the rest of a body: time for packets to be lost and sent again. A client that waits for
+/// the answer before it sends the body gets it after this time.
 const GRACE: Duration = Duration::from_millis(500);
-/// The most bytes that a lingering connection takes. Many clients read only once they have sent everything, even where that
-/// is far more than a body may have.
+/// The most bytes that a lingering connection reads. Many clients read only once they have sent everything, even far
+/// more than a body may have.
 const MAX_LINGER_BYTES: usize = 64_000_000;
-/// How many bytes are taken at a time.
+/// Bytes per read.
 const LINGER_PIECE: usize = 16 * 1024;
 
-/// Whether a connection has announced its end while a body is unread.
+/// Whether a connection has announced its end with an unread body.
 #[derive(Clone, Default)]
 pub(super) struct Unread(Arc<AtomicBool>);
 
@@ -46,22 +45,22 @@ impl Unread {
     }
 }
 
-/// A request's body as handlers get it. What they leave of it goes back to its [`Loan`].
+/// A request's body as handlers get it. The unread rest goes back to its [`Loan`].
 pub(super) struct LentBody {
     /// Until it ends, fails or goes back.
     body: Option<Incoming>,
-    /// The client asks before it sends, and is told to send once somebody reads.
+    /// The client waits for `100 Continue`, which is sent at the first read.
     withheld: bool,
     back: Option<oneshot::Sender<Rest>>,
 }
 
-/// What is left of a body that nobody reads any more.
+/// The unread rest of a body.
 enum Rest {
     Nothing,
     Unread(Incoming),
-    /// The client was not told to send. It may do so all the same.
+    /// The client did not get `100 Continue`, but may send even so.
     Withheld,
-    /// The connection broke, or the chunks are garbled: nobody knows where a next request would begin.
+    /// The connection broke, or the chunks are invalid: the start of a next request is unknown.
     Broken,
 }
 
@@ -71,8 +70,7 @@ pub(super) struct Loan {
     max: usize,
 }
 
-/// Lend a request's body to its handler. At most `max` bytes of what it leaves are waited for. No loan where there is no
-/// body.
+/// Lend a request's body to its handler. At most `max` bytes of the rest are waited for. `None` without a body.
 pub(super) fn lend(request: Request<Incoming>, max: usize) -> (Request<LentBody>, Option<Loan>) {
     if request.body().is_end_stream() {
         return (request.map(|body| LentBody { body: Some(body), withheld: false, back: None }), None);
@@ -86,7 +84,7 @@ pub(super) fn lend(request: Request<Incoming>, max: usize) -> (Request<LentBody>
 impl LentBody {
     fn give_back(&mut self, rest: Rest) {
         if let Some(back) = self.back.take() {
-            // Nobody waits for it where the client has hung up.
+            // The receiver is gone if the client has hung up.
             let _ = back.send(rest);
         }
     }
@@ -134,7 +132,7 @@ impl hyper::body::Body for LentBody {
 }
 
 impl Loan {
-    /// The answer: once the rest of the body is taken, or else with the announcement that it is the connection's last.
+    /// The answer, once the rest of the body is read, or with `Connection: close`.
     pub(super) async fn settle<E>(
         self,
         answer: impl Future<Output = Result<Response<Body>, E>>,
@@ -150,7 +148,7 @@ impl Loan {
             }
         };
         if complete.is_none() {
-            // Where the end is announced anyway there is nothing to wait for.
+            // If the end is announced anyway, no wait is needed.
             let grace = if response.headers().contains_key(header::CONNECTION) { Duration::ZERO } else { GRACE };
             complete = timeout(grace, taken).await.ok();
         }
@@ -161,7 +159,7 @@ impl Loan {
         Ok(response)
     }
 
-    /// Take what the handler leaves. True once that is the body's end.
+    /// Read the rest. True once the body has ended.
     async fn taken(self) -> bool {
         let mut body = match self.back.await {
             Ok(Rest::Nothing) => return true,
@@ -183,8 +181,8 @@ impl Loan {
     }
 }
 
-/// End a connection so that its last answer can be read: say that nothing more comes, and take what the client still
-/// sends, for no longer than this.
+/// Close a connection so that its last answer can be read: end the writing side, then read what the client still sends,
+/// for at most this time.
 pub(super) async fn close(mut stream: Transport, patience: Duration) {
     if stream.shutdown().await.is_err() {
         return;
@@ -199,6 +197,6 @@ pub(super) async fn close(mut stream: Transport, patience: Duration) {
             }
         }
     };
-    // A client that neither closes nor stops is not waited for.
+    // A client that neither closes nor stops is cut off.
     let _ = timeout(patience, taking).await;
 }

@@ -14,7 +14,7 @@ use crate::experiments::{Cause, ExperimentError, ExperimentSettings, table1, tab
 use crate::wire::{Table1Body, Table2Body};
 use singulate_planner::plan::PlanError;
 
-/// The most episodes in a column: the seeds of the next one begin after so many.
+/// The most episodes in a column: the seeds of the next column begin after them.
 const MAX_EPISODES: u64 = 1_000_000;
 
 /// The arguments of `experiment`.
@@ -92,7 +92,7 @@ impl Experiment {
 }
 
 impl Common {
-    /// Refused where the baseline is to have more episodes than there are.
+    /// Fails if the baseline would have more episodes than there are.
     fn settings(&self, base_episodes: Option<usize>) -> Result<ExperimentSettings, Failure> {
         let episodes = self.episodes;
         let base_episodes = base_episodes.unwrap_or(episodes.min(20));

@@ -6,7 +6,7 @@ use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
 
 use crate::config::{Config, NeededBy, SETTINGS, Setting, Stated};
 
-/// The flags of a command that serves (`SERVICE`) or only plans, for whom most settings mean nothing.
+/// The flags of a command that serves (`SERVICE`) or only plans, which needs few settings.
 #[derive(Debug, Default)]
 pub(super) struct Flags<const SERVICE: bool>(pub(super) Stated);
 
@@ -45,11 +45,11 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
             let flag = Arg::new(setting.name)
                 .long(setting.flag())
                 .value_name(setting.placeholder)
-                // A value that begins with a dash is a bad value, not another flag.
+                // A value that begins with a dash is an invalid value, not another flag.
                 .allow_hyphen_values(true)
                 .help_heading("Settings")
                 .help(format!("{} [env: {variable}] [default: {default}]", setting.help));
-            // With a value of its own only as --flag=value, or it would take the next word for one.
+            // A value is only accepted as --flag=value; otherwise the next word would be taken for one.
             let switch = |flag: Arg| flag.num_args(0..=1).require_equals(true).default_missing_value("true");
             command.arg(if setting.is_switch() { switch(flag) } else { flag })
         })
@@ -60,7 +60,7 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
     }
 }
 
-/// The same flags, but not in the help: that of another command lists them.
+/// The same flags without help: another command lists them.
 #[derive(Debug, Default)]
 pub(super) struct Unlisted<A>(pub(super) A);
 

@@ -59,7 +59,7 @@ impl Generate {
         let refused = |detail: String| Failure::Refused(detail);
         let draft =
             experiments::generate(&self.recipe(), self.seed).map_err(|error| refused(format!("no scene: {error}")))?;
-        // Other limits than the size of the scene are for whoever reads it.
+        // Limits other than the scene's size are checked by the reader of the scene.
         let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
         let (scene, _) = Scene::new(draft, &limits).map_err(|_| refused("no scene".to_owned()))?;
         output::print_json(&SceneBody::new(&scene, None))

@@ -15,13 +15,13 @@ use crate::jobs::{client_builder, client_builder_with, innermost, trusted_roots}
 use crate::tls::unverified_client;
 use crate::wire::ProblemKind;
 
-/// How long the service may take to say that it is ready.
+/// Timeout of the check.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// How much of an answer is read: a problem document has some hundred bytes.
+/// The most bytes read of an answer: a problem document has some hundred.
 const MAX_ANSWER: usize = 4096;
 
-/// Why perhaps nobody listens where the settings say.
+/// A hint for when nothing listens at the address in the settings.
 const ELSEWHERE: &str = "; a service that was started with --listen or --config is asked with the same flag";
 
 /// The arguments of `healthcheck`.
@@ -54,9 +54,9 @@ impl Healthcheck {
     }
 }
 
-/// Ask the service that has these settings. What its flags said of TLS is not known here, but its answer tells.
+/// Ask the service with these settings. Its TLS flags are unknown here, but its answer tells.
 async fn ask_this_machine(config: &Config) -> Result<(), Failure> {
-    // Nobody but this machine is asked, so it does not matter what the certificate says.
+    // Only this machine is asked, so the certificate does not matter.
     let client = || client_builder_with(unverified_client());
     let url = own_url(config);
     let answer = ask(client(), &url, ELSEWHERE).await?;
@@ -69,7 +69,7 @@ async fn ask_this_machine(config: &Config) -> Result<(), Failure> {
     }
 }
 
-/// What came back.
+/// The service's reply.
 struct Reply {
     status: StatusCode,
     /// The problem document, if it is one.
@@ -77,7 +77,7 @@ struct Reply {
 }
 
 impl Reply {
-    /// True for the answer of a service of ours that speaks TLS to a question without.
+    /// True if our service speaks TLS and was asked without.
     fn wants_tls(&self) -> bool {
         self.problem["type"] == ProblemKind::MalformedHttp.to_string()
     }
@@ -91,7 +91,7 @@ impl Reply {
     }
 }
 
-/// Where a service with these settings can be asked from this machine.
+/// The URL of a service with these settings on this machine.
 fn own_url(config: &Config) -> String {
     let scheme = if config.server.tls.cert.is_some() { "https" } else { "http" };
     let ip = match config.listen.ip() {
@@ -102,7 +102,7 @@ fn own_url(config: &Config) -> String {
     format!("{scheme}://{}/readyz", SocketAddr::new(ip, config.listen.port()))
 }
 
-/// What came back; where nobody listens, `elsewhere` says what helps.
+/// The reply; if nothing listens, `elsewhere` is the hint in the error.
 async fn ask(client: ClientBuilder, url: &str, elsewhere: &str) -> Result<Reply, Failure> {
     exchange(client, url).await.map_err(|error| {
         if error.is_builder() {

@@ -27,13 +27,13 @@ fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
 }
 
-/// What is wrong with a file, one line a fault.
+/// The faults of a file, one per line.
 pub(super) fn refused(path: &Path, problem: &Problem) -> Failure {
     let mut lines = vec![format!("{}: {}", name(path), plain(problem.detail()))];
     for error in problem.errors() {
         let see = error.see();
         if error.detail == problem.detail() {
-            // A text that is no JSON has one fault, and the first line tells it.
+            // A text that is not JSON has one fault, which the first line tells.
             lines[0] += &format!(" ({see})");
         } else {
             let pointer = if error.pointer.is_empty() { "(the whole)" } else { &plain(&error.pointer) };

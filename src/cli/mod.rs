@@ -1,4 +1,4 @@
-//! The command line: one file a command.
+//! The command line: one file per command.
 
 mod experiment;
 mod flags;
@@ -63,7 +63,7 @@ enum Command {
     Healthcheck(healthcheck::Healthcheck),
 }
 
-/// Why there is no answer.
+/// Why a command failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// Bad arguments, settings or scene.
@@ -91,7 +91,7 @@ impl From<ConfigError> for Failure {
 }
 
 impl Cli {
-    /// Do what was asked for.
+    /// Run the command.
     ///
     /// # Errors
     /// [`Failure`], with what to print on stderr.
@@ -110,7 +110,7 @@ impl Cli {
     }
 }
 
-/// The settings, and the log begun as they say.
+/// Load the settings and start logging.
 fn configure(stated: &Stated) -> Result<Config, Failure> {
     let config = config::load(stated, std::env::vars_os())?;
     telemetry::init(&config.log, config.log_format, None).map_err(Failure::Broken)?;
@@ -118,7 +118,7 @@ fn configure(stated: &Stated) -> Result<Config, Failure> {
     Ok(config)
 }
 
-/// What looks like a setting and is none is told, and does no harm.
+/// Warns about unknown variables with our prefix; they do no harm.
 fn warn_of_variables(config: &Config) {
     for variable in &config.unknown_variables {
         tracing::warn!("{variable}");

@@ -2,12 +2,12 @@
 
 use rustix::process::{Resource, getrlimit, setrlimit};
 
-/// Files that are no connections: the log, the listener, the store of jobs, the callbacks. Connections leave them free, or
-/// idle clients would shut out the store.
+/// Files that are not connections: the log, the listener, the store of jobs, the callbacks. They are reserved, since
+/// idle clients could otherwise shut out the store.
 const OTHER_FILES: u64 = 128;
 
-/// Raise the soft limit as far as the process may, and say how many of the wanted connections that is enough for. Many
-/// systems set it to 1024 for the sake of old programs.
+/// Raise the soft limit as far as permitted, and return how many of the wanted connections it allows. Many systems set
+/// it to 1024 for old programs.
 pub(super) fn room_for(connections: usize) -> usize {
     let mut limit = getrlimit(Resource::Nofile);
     limit.current = limit.maximum;

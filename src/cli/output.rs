@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::Failure;
 
-/// Write the text. Whoever closes the pipe early has read enough.
+/// Write the text. A closed pipe is no error: its reader has read enough.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -15,7 +15,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Write a body as the service would, on lines of its own.
+/// Write a body as the service would, indented.
 pub(super) fn print_json(body: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(body).map_err(|error| Failure::Broken(error.to_string()))?;
     print(&(text + "\n"))

@@ -51,8 +51,8 @@ impl Plan {
     }
 }
 
-/// There is no answer: the scene is too dense, or the planner's answer failed its check, a bug told with what the checker
-/// found.
+/// There is no answer: the scene is too dense, or the answer failed its check, a bug that is reported with the
+/// checker's faults.
 pub(super) fn failed(scene: &Path, error: &PlanError) -> Failure {
     let PlanError::Refused(report) = error else {
         return input::refused(scene, &Problem::too_dense(error.to_string()));
@@ -60,7 +60,7 @@ pub(super) fn failed(scene: &Path, error: &PlanError) -> Failure {
     withheld(error, report)
 }
 
-/// A bug of ours: an answer that failed its check.
+/// A bug of ours: the answer failed its check.
 pub(super) fn withheld(error: &impl Display, report: &Report) -> Failure {
     let mut lines = vec![error.to_string()];
     lines.extend(VerificationBody::new(report).faults.iter().map(text::fault));

@@ -1,4 +1,4 @@
-//! How far a long command has come, on stderr.
+//! Progress of a long command, on stderr.
 
 use core::time::Duration;
 use std::io::Write;
@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Where stderr is no terminal, a line follows another no sooner than this.
+/// The least time between two lines if stderr is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
-/// A bar on a terminal, else a line now and then.
+/// A bar on a terminal, otherwise a line at intervals.
 #[derive(Debug)]
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -22,24 +22,24 @@ impl Progress {
             .expect("the template is sound");
         let bar = ProgressBar::new(0).with_style(style.progress_chars("=> "));
         if !bar.is_hidden() {
-            // Time goes on while an episode takes long.
+            // The elapsed time advances while an episode takes long.
             bar.enable_steady_tick(Duration::from_secs(1));
         }
         Self { bar, told: Instant::now() }
     }
 
-    /// So much is done.
+    /// Reports the number done.
     pub(super) fn tell(&mut self, done: usize, total: usize) {
         if self.bar.is_hidden() && self.told.elapsed() >= LINE_EVERY {
             self.told = Instant::now();
-            // Nobody can be told where stderr is gone.
+            // If stderr is gone, nothing can be reported.
             let _ = writeln!(std::io::stderr(), "{done} of {total} done");
         }
         self.bar.set_length(total as u64);
         self.bar.set_position(done as u64);
     }
 
-    /// Take the bar away: what follows stands in its place.
+    /// Removes the bar, since results take its place.
     pub(super) fn end(self) {
         self.bar.finish_and_clear();
     }

@@ -1,4 +1,4 @@
-//! The paper's tables for people: our figures with the paper's in the next column.
+//! The paper's tables for humans: our figures beside the paper's.
 
 use super::table::{Column, table};
 use crate::experiments::{
@@ -7,7 +7,7 @@ use crate::experiments::{
 };
 use singulate_planner::plan::{GraspModel, SearchMethod};
 
-/// What nobody can repeat.
+/// The figures that can't be reproduced exactly.
 pub(super) const NOT_THE_SAME: &str = "\
 What can't be as it was for the paper's own figures: its machine; its scenes, which it only says
 are random. Algorithm 1 as printed counts the target; here it isn't counted: add 1 to compare. Its
@@ -17,7 +17,7 @@ another order; of that the paper says nothing. For places the paper names no res
 and leaves open how its θ_g is measured (here by the lens of two equal circles) and how far from
 objects that are still to be moved a place must be (here r_g).";
 
-/// Columns of words stand left, those of numbers right.
+/// Columns of text are left-aligned, those of numbers right-aligned.
 const WORDS: [&str; 5] = ["model", "method", "places", "scenes", "faults"];
 
 /// Table I.
@@ -64,7 +64,7 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
     .join("\n")
 }
 
-/// A row a column and way to find places.
+/// One row per column and placement method.
 fn placements(
     columns: &[Table2Column],
     row: impl Fn(&Table2Column, &PlacementFigures) -> Vec<String>,
@@ -80,7 +80,7 @@ fn placements(
     rows.map(named).collect()
 }
 
-/// How often there is a place, and how long that takes.
+/// How often places are found, and how long that takes.
 fn placings(columns: &[Table2Column]) -> String {
     let titles =
         titles("N|places|episodes|success %|(95 %)|paper|(95 %)|graspable|no space|late|mean time|median|paper");
@@ -103,7 +103,7 @@ fn placings(columns: &[Table2Column]) -> String {
     table(&titles, rows.into_iter())
 }
 
-/// What the checker has against the plans.
+/// The checker's faults in the plans.
 fn faults(columns: &[Table2Column]) -> String {
     let rows = placements(columns, |_, figures| {
         let faults: Vec<String> = figures.faults.iter().map(|(code, count)| format!("{code} {count}")).collect();
@@ -113,7 +113,7 @@ fn faults(columns: &[Table2Column]) -> String {
     table(&titles("N|places|faulty|at release|otherwise|faults"), rows.into_iter())
 }
 
-/// Each column's methods by each grasp model, with what the paper prints for the same method.
+/// Each column's methods by each grasp model, with the paper's figures for the same method.
 fn methods(columns: &[Table1Column]) -> impl Iterator<Item = (&Table1Column, &ModelFigures, &MethodFigures)> {
     columns.iter().flat_map(|column| {
         let models = [&column.sector, &column.swept_finger];
@@ -121,7 +121,7 @@ fn methods(columns: &[Table1Column]) -> impl Iterator<Item = (&Table1Column, &Mo
     })
 }
 
-/// What the paper prints for a method; it has the sector model only.
+/// The paper's figures for a method; it has the sector model only.
 fn printed<'c>(column: &'c Table1Column, model: &ModelFigures, method: &MethodFigures) -> Option<&'c Printed> {
     match (model.grasp_model, method.method) {
         (GraspModel::Sector, SearchMethod::ForwardAstar) => Some(&column.case.base),
@@ -152,7 +152,7 @@ fn titles(titles: &'static str) -> Vec<Column> {
     titles.split('|').map(column).collect()
 }
 
-/// What the searches find, and what of it is wrong.
+/// The outcomes of the searches, and their errors.
 fn endings(columns: &[Table1Column]) -> String {
     let titles =
         titles("N|model|method|episodes|deadlock %|(95 %)|paper|(95 %)|success %|paper|false deadlock|not least");
@@ -176,8 +176,8 @@ fn endings(columns: &[Table1Column]) -> String {
     table(&titles, rows)
 }
 
-/// How long the searches take, what ends them early, and how many relocations they come to: without the target, then with
-/// it, as the paper counts.
+/// The search times, time-outs and memory limits, and the number of relocations: without the target, then with it, as
+/// the paper counts.
 fn searches(columns: &[Table1Column]) -> String {
     let titles = titles("N|model|method|knowledge|search|median|paper|late|too large|graspable|relocations|+1|paper");
     let rows = methods(columns).map(|(column, model, method)| {
@@ -225,7 +225,7 @@ fn plans(columns: &[Table1Column]) -> String {
     table(&titles, rows)
 }
 
-/// What does not fit the paper, and what the swept finger gains.
+/// The differences from the paper, and the gain by the swept finger.
 fn conclusions(columns: &[Table1Column]) -> String {
     let named = |of: &dyn Fn(&Table1Column) -> bool| {
         let names: Vec<String> =
@@ -254,7 +254,7 @@ fn sureness(part: usize, whole: usize) -> String {
     or_dash(interval, |interval| format!("{:.1}-{:.1}", 100.0 * interval.low, 100.0 * interval.high))
 }
 
-/// Or a dash where there is nothing.
+/// The value, or a dash.
 fn or_dash<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), show)
 }
@@ -271,7 +271,7 @@ fn median(spread: Option<Spread>) -> String {
     or_dash(spread, |spread| seconds(spread.median))
 }
 
-/// A time in the unit that suits it.
+/// A time in a suitable unit.
 fn seconds(value: f64) -> String {
     if value >= 0.1 {
         format!("{value:.2} s")

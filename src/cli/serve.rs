@@ -14,10 +14,10 @@ use crate::api::{Engine, Server, ServerSettings};
 use crate::config::{self, Config};
 use crate::telemetry;
 
-/// A plate between two others and a fixed vase: small enough for one line, and something has to move.
+/// A plate between two others and a fixed vase: a one-line scene that needs a relocation.
 const SCENE: &str = include_str!("example.json");
 
-/// Connections that the system holds until they are accepted.
+/// The listen backlog of the system.
 const BACKLOG: u32 = 1024;
 
 /// The arguments of `serve`.
@@ -37,7 +37,7 @@ impl Serve {
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build();
         let runtime = runtime.map_err(|error| Failure::Broken(error.to_string()))?;
         let served = runtime.block_on(serve(config));
-        // Nothing is left that would be worth waiting for.
+        // Nothing that is left is worth waiting for.
         runtime.shutdown_background();
         if let Some(traces) = traces {
             traces.finish();
@@ -46,8 +46,8 @@ impl Serve {
     }
 }
 
-/// The place is taken first, so that one where somebody listens already is told at once. But nobody is let in, and nothing says
-/// that there is a service, before there is one.
+/// The address is bound first, so that a conflict is reported at once. But listening, and its log line, wait until the
+/// service is ready.
 async fn serve(mut config: Config) -> Result<(), Failure> {
     let cannot_listen = |error| cannot_listen(config.listen, &error);
     let broken = |error: std::io::Error| Failure::Broken(error.to_string());
@@ -73,7 +73,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What the log says before there is a service.
+/// Log lines before the service is ready.
 fn opening(config: &Config, listen: SocketAddr) {
     if let Some(warning) = config.warning() {
         tracing::warn!(%listen, "{warning}");
@@ -81,16 +81,16 @@ fn opening(config: &Config, listen: SocketAddr) {
     tracing::info!("opening the store of jobs");
 }
 
-/// A socket that has its address and lets nobody in yet.
+/// A bound socket that does not listen yet.
 fn place(listen: SocketAddr) -> io::Result<TcpSocket> {
     let socket = if listen.is_ipv4() { TcpSocket::new_v4() } else { TcpSocket::new_v6() }?;
-    // Connections of the process before us may still be about to end.
+    // Connections of the previous process may still be closing.
     socket.set_reuseaddr(true)?;
     socket.bind(listen)?;
     Ok(socket)
 }
 
-/// Why nobody can listen there, and what helps.
+/// Why the address can't be used, and a remedy.
 fn cannot_listen(listen: SocketAddr, error: &io::Error) -> Failure {
     let cure = match error.kind() {
         ErrorKind::AddrInUse => "; another program listens there: choose another port, or 0 for any free one",
@@ -103,8 +103,8 @@ fn cannot_listen(listen: SocketAddr, error: &io::Error) -> Failure {
     Failure::Broken(format!("--listen {listen}: {error}{cure}"))
 }
 
-/// Done once the process is asked to end: by Ctrl-C, or by whatever manages containers. Asked a second time, it ends at
-/// once, with the status that a shell gives a process which the signal has ended.
+/// Done at the first signal to stop: Ctrl-C, or the one from a container manager. A second signal ends the process at
+/// once, with the status that a shell gives a process killed by that signal.
 fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
     use tokio::signal::unix::{SignalKind, signal};
     let (interrupt, terminate) = (SignalKind::interrupt(), SignalKind::terminate());
@@ -125,7 +125,7 @@ fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
     })
 }
 
-/// What a shell adds to the number of the signal that ended a process.
+/// The offset from a signal's number to a shell's exit status.
 const KILLED: i32 = 128;
 
 fn greeting(listen: SocketAddr, settings: &ServerSettings) -> String {
@@ -146,7 +146,7 @@ fn greeting(listen: SocketAddr, settings: &ServerSettings) -> String {
     )
 }
 
-/// One word of a shell.
+/// Quoted as one word of a shell.
 fn quoted(path: &Path) -> String {
     format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }

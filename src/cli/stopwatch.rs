@@ -1,11 +1,11 @@
-//! The clock of a command: nobody waits in a queue, and whoever loses patience kills the process.
+//! The clock of a command. It is never cancelled: an impatient user kills the process.
 
 use core::time::Duration;
 use std::time::Instant;
 
 use singulate_planner::budget::Clock;
 
-/// Counts from its start.
+/// Measures time from its start.
 #[derive(Debug)]
 pub(super) struct Stopwatch(Instant);
 

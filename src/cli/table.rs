@@ -1,6 +1,6 @@
-//! Columns that line up.
+//! Aligned columns.
 
-/// A column's title and side.
+/// A column's title and alignment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     title: &'static str,
@@ -8,7 +8,7 @@ pub(super) struct Column {
 }
 
 impl Column {
-    /// For words.
+    /// For text.
     pub(super) fn left(title: &'static str) -> Self {
         Self { title, right: false }
     }

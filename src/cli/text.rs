@@ -1,4 +1,4 @@
-//! Answers for people: what to do, and why.
+//! Answers for humans: the steps and the reasons.
 
 use core::time::Duration;
 
@@ -12,10 +12,10 @@ use singulate_planner::plan::{
 };
 use singulate_planner::scene::{ObjectIndex, Scene};
 
-/// More ids than this in one sentence nobody reads.
+/// The most ids in one sentence.
 const MANY: usize = 40;
 
-/// What `no_space` does not say.
+/// Added to `no_space`.
 const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
 
 /// The text with control characters made visible: an id must not move the cursor or forge a line.
@@ -34,7 +34,7 @@ pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
         Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
         Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
         Verdict::Deadlock(Some(deadlock)) => paragraphs.push(why_never(scene, deadlock)),
-        // All that can be said is in the headline and the warnings.
+        // Headline and warnings say everything.
         Verdict::Deadlock(None) => {}
         Verdict::NoSpace(known) => paragraphs.extend([so_far(scene, known), NO_PROOF.to_owned()]),
         Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
@@ -163,7 +163,7 @@ fn times(statistics: &Statistics) -> String {
     format!("{} in all: {}\n", ms(knowledge + search + placement + check), parts.join(", "))
 }
 
-/// What the checker found.
+/// The checker's report.
 pub(super) fn verification(body: &VerificationBody) -> String {
     if body.valid {
         return "valid: the plan holds\n".to_owned();
@@ -181,7 +181,7 @@ pub(super) fn fault(fault: &FaultBody) -> String {
     format!("  {place}{} ({})", plain(&fault.detail), fault.code)
 }
 
-/// What holds for every object as the target.
+/// The verdict for every object as the target.
 pub(super) fn survey(scene: &Scene, entries: &[SurveyEntry]) -> String {
     let columns = [Column::left("object"), Column::left("verdict"), Column::left("relocations")];
     let rows = entries.iter().map(|entry| {

@@ -12,10 +12,10 @@ use singulate_planner::knowledge::NoBase;
 use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict, known};
 use singulate_planner::search::SILENT;
 
-/// What must move so that the target can be grasped.
+/// Plans for the scene's target.
 #[derive(Debug, Clone, Copy)]
 pub struct Plan(
-    /// As data or as a drawing.
+    /// The form of the answer.
     pub Form,
 );
 
@@ -41,7 +41,7 @@ impl Computation for Plan {
         self.write(request, &answer)
     }
 
-    /// That there was no time is a verdict, with a drawing where the scene is known.
+    /// A time-out is a verdict, and has a drawing if the scene is known.
     fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
         match (known, self.0) {
             (Known::Request(request), _) => {
@@ -56,7 +56,7 @@ impl Computation for Plan {
     }
 }
 
-/// Whether a stated answer holds.
+/// Checks a stated answer.
 #[derive(Debug, Clone, Copy)]
 pub struct Verification;
 
@@ -77,7 +77,7 @@ impl Computation for Verification {
     }
 }
 
-/// What each movable object would need as the target.
+/// The relocations that each movable object would need as the target.
 #[derive(Debug, Clone, Copy)]
 pub struct Survey;
 
@@ -100,7 +100,7 @@ impl Computation for Survey {
     }
 }
 
-/// What is known of each object before any search.
+/// The knowledge of each object before any search.
 #[derive(Debug, Clone, Copy)]
 pub struct Knowledge;
 

@@ -1,4 +1,4 @@
-//! The computations that the service offers, and what it says where one of them fails.
+//! The computations that the service offers, and the problems and log lines of their failures.
 
 use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
@@ -8,12 +8,12 @@ use singulate_planner::plan::{self, Answer, Claim, PlanError, Settings, SurveyEn
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
 
-/// The computations. The default is the planner; a test may stand in another.
+/// The computations: by default the planner's; tests may replace them.
 #[derive(Clone, Copy)]
 pub struct Engine {
     /// Plan for the scene's target.
     pub plan: fn(&Scene, &Settings, &Budget<'_>, Progress<'_>) -> Result<Answer, PlanError>,
-    /// Every movable object as the target.
+    /// Survey every movable object as the target.
     pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
     /// Check a stated answer.
     pub check: fn(&Scene, &Claim, &Budget<'_>) -> Report,
@@ -29,7 +29,7 @@ impl Engine {
     /// Plan for a request.
     ///
     /// # Errors
-    /// A problem where there is no answer.
+    /// A problem if there is no answer.
     pub fn answer(
         &self,
         request: &PlanRequest,
@@ -47,13 +47,13 @@ impl Engine {
     /// Survey a request's scene.
     ///
     /// # Errors
-    /// A problem where there is no answer.
+    /// A problem if there is no answer.
     pub fn survey(&self, request: &PlanRequest, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, Problem> {
         (self.survey)(&request.scene, budget).map_err(|error| plan_failed(request, &error))
     }
 }
 
-/// There is no answer: the scene is too dense, or the planner failed; then log all that is needed to see it fail again.
+/// The scene is too dense, or the planner failed; then logs all that is needed to reproduce it.
 fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
     let (scene, settings) = (written(request), &request.settings);
@@ -61,7 +61,7 @@ fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")
 }
 
-/// A computation panicked: log all that is needed to see it panic again.
+/// A computation panicked: logs all that is needed to reproduce it.
 pub(super) fn panicked(request: &PlanRequest) -> Problem {
     let (scene, settings) = (written(request), &request.settings);
     tracing::error!(%scene, ?settings, "a computation panicked");
@@ -69,7 +69,7 @@ pub(super) fn panicked(request: &PlanRequest) -> Problem {
 }
 
 fn written(request: &PlanRequest) -> String {
-    // The settings are logged as they are understood; without this one the scene might not be read again.
+    // The effective settings are logged; without this one the scene might be refused when it is read again.
     let settings = SettingsBody { overlap_tolerance: Some(request.overlap_tolerance), ..SettingsBody::default() };
     let scene = SceneBody::new(&request.scene, request.scene_id.as_deref());
     serde_json::to_string(&SceneBody { settings: Some(settings), ..scene }).unwrap_or_default()

@@ -1,5 +1,5 @@
-//! What a planning call is: a body is read, an answer is computed from it, and something is said where time runs out first.
-//! [`Planning`] does this for every [`Computation`] alike. Those that there are stand in [`calls`].
+//! Planning calls: read a body, compute the answer, and respond if time runs out first. [`Planning`] does this for
+//! every [`Computation`] alike; [`calls`] lists them.
 
 pub mod calls;
 mod engine;
@@ -20,9 +20,9 @@ use crate::metrics::Metrics;
 use crate::wire::{PlanRequest, Problem, RequestLimits};
 use singulate_planner::budget::Budget;
 
-/// What a planning call asks for. Its value holds how the answer is wanted, if there is a choice.
+/// A kind of planning call. Its value holds the form of the answer, if there is a choice.
 pub trait Computation: Copy + Send + Sync + 'static {
-    /// A body that has been read.
+    /// A body after reading.
     type Request: AsRef<PlanRequest> + Send + Sync + 'static;
 
     /// Read a body.
@@ -34,22 +34,22 @@ pub trait Computation: Copy + Send + Sync + 'static {
     /// The answer, computed on a thread of the pool.
     ///
     /// # Errors
-    /// A problem where there is no answer.
+    /// A problem if there is no answer.
     fn compute(self, tools: &Tools, request: &Self::Request, budget: &Budget<'_>) -> Served;
 
-    /// What is left to say where the time limit came first.
+    /// The answer if the time limit came first.
     ///
     /// # Errors
-    /// A problem where that is nothing.
+    /// A problem if there is none.
     fn too_late(self, known: Known<'_, Self::Request>) -> Served;
 }
 
-/// What a computation needs besides its request.
+/// The tools of a computation besides its request.
 #[derive(Clone)]
 pub struct Tools {
-    /// What computes.
+    /// The computations.
     pub engine: Engine,
-    /// Where answers are counted.
+    /// The metrics of answers.
     pub metrics: Arc<Metrics>,
 }
 
@@ -66,7 +66,7 @@ pub enum Form {
 }
 
 impl Form {
-    /// The form's name on the internet.
+    /// The form's media type.
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",

@@ -1,4 +1,4 @@
-//! The way from a body to the bytes of its answer, which never stalls the threads that serve connections.
+//! From a body to the bytes of its answer, without blocking the threads that serve connections.
 
 use core::ops::Deref;
 use core::time::Duration;
@@ -18,7 +18,7 @@ use crate::wire::{Glance, Problem, RequestLimits};
 use crate::workers::{Draining, Outcome, Pending, Pool, Refused};
 use singulate_planner::budget::Budget;
 
-/// How long a body may wait to be read where nothing else limits its time.
+/// The time limit for reading a body that has no other limit.
 const READING_LIMIT: Duration = Duration::from_secs(5);
 
 /// The planning calls of one server, and the threads that compute for them.
@@ -30,10 +30,10 @@ pub struct Planning {
 }
 
 impl Planning {
-    /// Start so many threads, with room for so many computations that wait for one.
+    /// Start this many threads, with a queue of this length.
     ///
     /// # Errors
-    /// If the system gives no thread.
+    /// If a thread can't be started.
     pub fn start(
         (threads, queue): (usize, usize),
         tools: Tools,
@@ -43,10 +43,10 @@ impl Planning {
         Ok(Self { pool: Pool::new(threads, queue)?, tools, limits, draining })
     }
 
-    /// Nothing new begins while the service drains.
+    /// Refuses new work while the service drains.
     ///
     /// # Errors
-    /// A problem while it does.
+    /// A problem while it drains.
     pub fn takes_work(&self) -> Result<(), Problem> {
         if !self.draining.begun() {
             return Ok(());
@@ -55,10 +55,10 @@ impl Planning {
         Err(not_ready())
     }
 
-    /// Read a body that is not to be answered at once: a small one here, a large one on the pool.
+    /// Read a body that is not answered at once: a small one here, a large one on the pool.
     ///
     /// # Errors
-    /// The problem that `read` finds, or one if there is no room or no time for reading.
+    /// The problem from `read`, or one if there is no room or no time.
     pub async fn read<T: Send + 'static>(
         &self,
         owner: &str,
@@ -78,11 +78,11 @@ impl Planning {
         }
     }
 
-    /// Read the body and compute its answer on the pool, or say what is left to say where the time limit comes first. The
-    /// limit counts from `arrival`.
+    /// Read the body and compute its answer on the pool, or respond without it if the time limit comes first. The limit
+    /// counts from `arrival`.
     ///
     /// # Errors
-    /// A problem where there is no answer.
+    /// A problem if there is no answer.
     pub async fn answer<C: Computation>(
         &self,
         owner: &str,
@@ -124,7 +124,7 @@ impl Planning {
         Ok(Some(glance))
     }
 
-    /// Run `work` on the pool. What is logged and traced there is the request's too.
+    /// Run `work` on the pool. Its log lines and spans belong to the request.
     fn begin<T: Send + 'static>(
         &self,
         owner: &str,
@@ -147,28 +147,28 @@ impl Planning {
         error.into()
     }
 
-    /// True if every thread lives and computations are taken.
+    /// True if every thread is alive and the pool is open.
     pub fn ready(&self) -> bool {
         self.pool.ready()
     }
 
-    /// The number of threads that compute.
+    /// The number of busy threads.
     pub fn busy(&self) -> usize {
         self.pool.busy()
     }
 
-    /// Everything that runs delivers the best so far, and nothing that waits begins.
+    /// Running computations deliver the best so far, and queued ones never start.
     pub fn finish_soon(&self) {
         self.pool.finish_soon();
     }
 
-    /// Take no more computations, and wait until those that were taken have come to their end. Blocks.
+    /// Close the pool and wait until all accepted computations have ended. Blocks.
     pub fn join(&self) {
         self.pool.join();
     }
 }
 
-/// Name the scene in the log lines of the request that is about it.
+/// Add the scene's id to the log lines of the request.
 pub fn note_scene(scene_id: Option<&str>) {
     if let Some(scene_id) = scene_id {
         Span::current().record("scene_id", scene_id);

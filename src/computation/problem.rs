@@ -1,10 +1,10 @@
-//! Why a computation was not begun or gave no answer, as problems and as measurements.
+//! Refusals and failures of computations, as problems and as metrics.
 
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 use crate::workers::Refused;
 
-/// No room for a computation.
+/// The pool has no room for a computation.
 impl From<Refused> for Problem {
     fn from(refused: Refused) -> Self {
         let overloaded = Self::new(ProblemKind::Overloaded, refused.to_string());
@@ -16,7 +16,7 @@ impl From<Refused> for Problem {
     }
 }
 
-/// The same as a measurement.
+/// The same as a metric.
 impl From<Refused> for Refusal {
     fn from(refused: Refused) -> Self {
         match refused {
@@ -32,12 +32,12 @@ pub(super) fn not_ready() -> Problem {
     Problem::new(ProblemKind::NotReady, "the service shuts down and begins nothing new")
 }
 
-/// A body that could not be read within its time limit, and nothing can be said without it.
+/// The body was not read within its time limit, so there is nothing to answer.
 pub(super) fn unread() -> Problem {
     Problem::new(ProblemKind::Overloaded, "the body could not be read within its time limit")
 }
 
-/// A scene that was read, but whose answer did not get done within its time limit, and half of it is of no use.
+/// The scene was read, but its answer was not done within the time limit, and a part of it is of no use.
 pub(super) fn late() -> Problem {
     Problem::new(ProblemKind::Overloaded, "the answer was not done within the time limit")
 }

@@ -1,4 +1,4 @@
-//! Reads bodies without holding up the threads that serve connections, nor any answer past its time.
+//! Reads bodies without blocking the threads that serve connections, and without delaying an answer past its time.
 
 use core::ops::Deref;
 use std::sync::OnceLock;
@@ -13,25 +13,25 @@ use crate::wire::{Glance, Problem, RequestLimits};
 /// glance must do, a millisecond for a megabyte.
 pub(super) const SMALL_BODY: usize = 16 * 1024;
 
-/// A body that has been read or will be.
+/// A body, read now or later.
 pub(super) struct Reading<C: Computation, B> {
-    /// A large one, until the answer is there.
+    /// A large body, kept until the answer is there.
     body: Option<B>,
     limits: RequestLimits,
     glance: Glance,
     request: OnceLock<C::Request>,
 }
 
-/// What is known of a request whose time is up.
+/// The known part of a request at its time-out.
 pub enum Known<'a, R> {
-    /// All of it.
+    /// The whole request.
     Request(&'a R),
-    /// It was too large to be read in time.
+    /// The body was too large to be read in time.
     Glance(&'a Glance),
 }
 
 impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
-    /// Read a small body, glance at a large one unless somebody has.
+    /// Read a small body; glance at a large one, unless that was done before.
     ///
     /// # Errors
     /// A problem with every fault of a small body.
@@ -50,12 +50,12 @@ impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
         self.body.as_deref().unwrap_or_default()
     }
 
-    /// What can be told at once.
+    /// The glance, available at once.
     pub(super) fn glance(&self) -> &Glance {
         &self.glance
     }
 
-    /// The request, read now if it has not been.
+    /// The request; reads the body on the first call.
     ///
     /// # Errors
     /// A problem with every fault of the body.
@@ -67,7 +67,7 @@ impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
         Ok(self.request.get_or_init(|| request))
     }
 
-    /// The computation panicked: log all that is needed to see it panic again.
+    /// The computation panicked: logs all that is needed to reproduce it.
     pub(super) fn panicked(&self) -> Problem {
         match self.request.get() {
             Some(request) => panicked(request.as_ref()),
@@ -78,7 +78,7 @@ impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
         }
     }
 
-    /// As much as is known by now.
+    /// The known part of the request now.
     pub(super) fn known(&self) -> Known<'_, C::Request> {
         self.request.get().map_or(Known::Glance(&self.glance), Known::Request)
     }

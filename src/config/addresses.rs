@@ -1,14 +1,14 @@
-//! Addresses as operators write them, and what was meant where one is not quite right.
+//! Reads addresses, and suggests corrections.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
-/// The port where none is said.
+/// The default port.
 pub(super) const DEFAULT_PORT: u16 = 8080;
 
-/// Where to listen.
+/// The listen address.
 ///
 /// # Errors
-/// What was probably meant.
+/// The suggested correction.
 pub(super) fn listen(text: &str) -> Result<SocketAddr, String> {
     text.parse().map_err(|_| format!("'{text}' is not an address and port like 0.0.0.0:8080{}", meant(text)))
 }
@@ -34,7 +34,7 @@ fn meant(text: &str) -> String {
     }
 }
 
-/// The address that stands for a host, with or without brackets.
+/// The IP address of a host, with or without brackets.
 fn ip(host: &str) -> Option<IpAddr> {
     match host {
         "localhost" => Some(Ipv4Addr::LOCALHOST.into()),
@@ -43,10 +43,10 @@ fn ip(host: &str) -> Option<IpAddr> {
     }
 }
 
-/// Where jobs are kept. What stands there is not looked at, only how it begins.
+/// The address of the store of jobs. Only its scheme is checked.
 ///
 /// # Errors
-/// What was probably meant. The text is shown only as far as it can hold no password.
+/// The suggested correction. The text is shown only up to where a password could begin.
 pub(super) fn jobs_url(text: &str) -> Result<String, String> {
     let place = text.strip_prefix("sqlite:");
     let server = ["postgres://", "postgresql://"].iter().find_map(|scheme| text.strip_prefix(scheme));
@@ -70,7 +70,7 @@ pub(super) fn jobs_url(text: &str) -> Result<String, String> {
     })
 }
 
-/// True if a text looks like the path of a file, and like nothing that holds a password.
+/// True if a text looks like a file path and can't hold a password.
 fn is_path(text: &str) -> bool {
     let letter = |c: char| c.is_alphanumeric() || "/._- ~".contains(c);
     text.starts_with(|c: char| c.is_alphanumeric() || "/.~".contains(c)) && text.chars().all(letter)

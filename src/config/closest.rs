@@ -1,9 +1,9 @@
-//! What somebody meant who mistyped a name.
+//! Suggestions for mistyped names.
 
-/// How alike two names must be, of 1 for the same. Below this they only share some letters.
+/// The least similarity, where 1 is equality. Below this, names only share some letters.
 const ALIKE: f64 = 0.82;
 
-/// The known name that is most like this one, if any is.
+/// The most similar known name, if any is similar enough.
 pub(super) fn closest(name: &str, known: impl Iterator<Item = String>) -> Option<String> {
     let scored = known.map(|other| (strsim::jaro_winkler(name, &other), other));
     let alike = scored.filter(|(score, _)| *score >= ALIKE);

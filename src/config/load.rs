@@ -1,4 +1,4 @@
-//! Brings flags, variables and the file together.
+//! Loads the configuration from flags, variables and the file.
 
 use core::fmt;
 use std::ffi::OsString;
@@ -9,14 +9,14 @@ use super::closest::closest;
 use super::setting::Setting;
 use super::settings::SETTINGS;
 
-/// What every variable of ours begins with.
+/// The prefix of all our variables.
 const PREFIX: &str = "SINGULATE_";
-/// What clients of the service read, who may run in the same shell.
+/// Variables of clients, which may run in the same shell.
 const OF_CLIENTS: [&str; 2] = ["SINGULATE_URL", "SINGULATE_KEY"];
 /// The variable that names the file.
 const CONFIG_VARIABLE: &str = "SINGULATE_CONFIG";
 
-/// Where a value came from.
+/// The source of a value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// A flag.
@@ -37,7 +37,7 @@ impl fmt::Display for Source {
     }
 }
 
-/// What is said on the command line.
+/// The settings of the command line.
 #[derive(Debug, Default)]
 pub struct Stated {
     /// The file.
@@ -46,24 +46,24 @@ pub struct Stated {
     pub flags: Vec<(&'static Setting, String)>,
 }
 
-/// All that is wrong with the settings, one line each.
+/// All faults of the settings, one line each.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.join("\n"))]
 pub struct ConfigError(pub Vec<String>);
 
 impl ConfigError {
-    /// The same, and variables that may have been meant for what is missing.
+    /// The same, with variables that may have been meant for missing settings.
     #[must_use]
     pub(super) fn beside(self, unknown_variables: &[String]) -> Self {
         Self(self.0.into_iter().chain(unknown_variables.iter().map(|line| format!("warning: {line}"))).collect())
     }
 }
 
-/// The configuration from flags, the variables of the environment and the file that either of them names.
+/// The configuration from flags, environment variables and the file that they name.
 ///
 /// # Errors
-/// Everything that is wrong: unknown keys, values that can't be, a file that can't be read. An unknown variable is no error:
-/// a container manager may have set it. It becomes one of `unknown_variables`.
+/// All faults: unknown keys, invalid values, an unreadable file. An unknown variable is no error, since a container
+/// manager may have set it; it goes to `unknown_variables`.
 pub fn load(
     stated: &Stated,
     environment: impl IntoIterator<Item = (OsString, OsString)>,
@@ -94,7 +94,7 @@ pub fn load(
     Ok(Config { unknown_variables: unknown, ..config })
 }
 
-/// The file's path and the settings among the environment's variables, in the order of [`SETTINGS`].
+/// The file's path and the settings in the environment, in the order of [`SETTINGS`].
 fn variables(
     environment: impl IntoIterator<Item = (OsString, OsString)>,
     faults: &mut Vec<String>,
@@ -115,13 +115,13 @@ fn variables(
             unknown.push(nothing_reads(name));
         }
     }
-    // The environment has no order of its own.
+    // The environment is unordered.
     unknown.sort_unstable();
     found.sort_unstable();
     (file, found.into_iter().map(|(at, text)| (&SETTINGS[at], text)).collect())
 }
 
-/// Why a variable changes nothing, and what was probably meant. Its value may be a secret.
+/// Says that a variable is unknown, with a suggestion. Its value may be a secret.
 fn nothing_reads(name: &str) -> String {
     let rest = name.strip_prefix(PREFIX).unwrap_or(name);
     let known = SETTINGS.iter().map(Setting::variable).chain([CONFIG_VARIABLE.to_owned()]);
@@ -136,7 +136,7 @@ fn nothing_reads(name: &str) -> String {
     format!("{name}: there is no such setting, so it changes nothing{meant}")
 }
 
-/// What is wrong, and in which line, but not the line itself: it may hold a secret.
+/// The fault and its line number, without the line: it may hold a secret.
 fn described(error: &toml::de::Error, text: &str) -> String {
     let before = error.span().and_then(|span| text.get(..span.start));
     let line = before.map(|before| format!("line {}: ", before.matches('\n').count() + 1));
@@ -186,7 +186,7 @@ mod tests {
         list.iter().map(|(name, value)| (OsString::from(name), OsString::from(value))).collect()
     }
 
-    /// A file of this name and text in the directory for temporary files.
+    /// A temporary file with this name and text.
     fn file(name: &str, text: &str) -> PathBuf {
         let path = std::env::temp_dir().join(format!("singulate-{}-{name}.toml", std::process::id()));
         std::fs::write(&path, text).unwrap();
@@ -221,7 +221,7 @@ mod tests {
             format!("listen in {at}: 'here' is not an address and port like 0.0.0.0:8080"),
             format!("queue in {at}: a boolean is no value for this setting"),
             format!("thread in {at}: there is no such setting; did you mean threads?"),
-            // Perhaps it was meant for one of these.
+            // May have been meant for one of these.
             "warning: SINGULATE_TREADS: there is no such setting, so it changes nothing; did you mean SINGULATE_THREADS?"
                 .to_owned(),
         ];

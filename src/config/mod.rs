@@ -1,4 +1,4 @@
-//! What the operator may set, and from where: flag before variable before file before default.
+//! The operator's settings. Precedence: flag, variable, file, default.
 
 mod addresses;
 mod closest;
@@ -21,27 +21,27 @@ use crate::tls::Certificates;
 /// Every setting with its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
-    /// Where the service listens.
+    /// The listen address.
     pub listen: SocketAddr,
     /// The service and its limits.
     pub server: ServerSettings,
-    /// That everybody may call, wherever the service listens.
+    /// Allows open access on any address.
     pub insecure: bool,
-    /// Which log lines are written: a level, and levels for parts of the program.
+    /// The log filter: a level, and levels for parts of the program.
     pub log: String,
-    /// How they are written.
+    /// The log format.
     pub log_format: LogFormat,
-    /// Where traces go, if anywhere.
+    /// The receiver of traces, if any.
     pub otlp_endpoint: Option<Endpoint>,
-    /// Variables that look like settings and are none, one sentence each.
+    /// Unknown variables with our prefix, one sentence each.
     pub unknown_variables: Vec<String>,
 }
 
 impl Config {
-    /// What a service needs beyond settings that are sound one by one.
+    /// Checks combinations of settings for the service.
     ///
     /// # Errors
-    /// What is missing, contradictory or faulty.
+    /// The missing, contradictory or invalid settings.
     pub fn check_service(&self) -> Result<(), ConfigError> {
         let jobs = &self.server.jobs;
         let mut faults = Vec::new();
@@ -61,7 +61,7 @@ impl Config {
         if faults.is_empty() { Ok(()) } else { Err(ConfigError(faults).beside(&self.unknown_variables)) }
     }
 
-    /// Why there is no service where others could reach it and nobody said who may.
+    /// Says that open access to other machines must be allowed explicitly.
     fn without_keys(&self) -> String {
         let listen = self.listen;
         format!(
@@ -74,8 +74,7 @@ impl Config {
         )
     }
 
-    /// What is worth a warning at the start: that everybody may call, unless somebody said so and only this machine is
-    /// meant.
+    /// A start-up warning about open access, unless it was allowed explicitly and only this machine can connect.
     pub fn warning(&self) -> Option<&'static str> {
         match (&self.server.api_keys_file, self.insecure, self.listen.ip().is_loopback()) {
             (Some(_), ..) | (None, true, true) => None,

@@ -1,4 +1,4 @@
-//! What a setting is, whatever it is set by.
+//! The type of a setting, independent of its source.
 
 use core::time::Duration;
 use std::path::PathBuf;
@@ -8,15 +8,15 @@ use super::Config;
 /// A day. A longer time is a typing error.
 const MAX_MS: u64 = 86_400_000;
 
-/// What stands for no file.
+/// The value for no file.
 const NO_FILE: &str = "none";
 
-/// Who needs a setting.
+/// The commands that need a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NeededBy {
     /// The service alone.
     Service,
-    /// Whoever reads a scene.
+    /// All commands that read a scene.
     Planning,
 }
 
@@ -25,30 +25,30 @@ pub enum NeededBy {
 pub struct Setting {
     /// Its key in the file.
     pub name: &'static str,
-    /// Who needs it.
+    /// The commands that need it.
     pub needed_by: NeededBy,
-    /// What stands for the value in the help.
+    /// The placeholder for its value in the help.
     pub placeholder: &'static str,
-    /// One sentence.
+    /// Its help, one sentence.
     pub help: &'static str,
-    /// What may be said.
+    /// Its type and range.
     pub(super) value: Value,
 }
 
-/// Where a value stands in the configuration, and what it may be.
+/// The type and range of a value, and its field in the configuration.
 #[derive(Debug)]
 pub(super) enum Value {
     /// A whole number.
     Whole { least: u64, most: u64, field: fn(&mut Config) -> &mut usize },
     /// A number.
     Number { least: f64, most: f64, field: fn(&mut Config) -> &mut f64 },
-    /// Yes or no; its flag alone says yes.
+    /// A boolean; the flag without a value means true.
     Switch { field: fn(&mut Config) -> &mut bool },
-    /// A time, up to a day.
+    /// A duration, up to a day.
     Milliseconds { least: u64, field: fn(&mut Config) -> &mut Duration },
     /// A file, or none.
     File { field: fn(&mut Config) -> &mut Option<PathBuf> },
-    /// Something of its own: how it is read, and how it is shown.
+    /// Any other type: how to parse and show it.
     Other { set: fn(&mut Config, &str) -> Result<(), String>, get: fn(&Config) -> String },
 }
 
@@ -68,10 +68,10 @@ impl Setting {
         matches!(self.value, Value::Switch { .. })
     }
 
-    /// Write a value into the configuration.
+    /// Parse a value into the configuration.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The fault of the value.
     pub fn set(&self, config: &mut Config, text: &str) -> Result<(), String> {
         match self.value {
             Value::Whole { least, most, field } => {
@@ -93,7 +93,7 @@ impl Setting {
         Ok(())
     }
 
-    /// The value as [`set`](Self::set) would take it; of a secret only whether there is one.
+    /// The value in the form that [`set`](Self::set) parses; for a secret only whether it is set.
     pub fn get(&self, config: &Config) -> String {
         let mut config = config.clone();
         match self.value {
@@ -134,7 +134,7 @@ mod tests {
         for setting in SETTINGS {
             for text in ["", "-1", "=,=", "1e99"] {
                 let outcome = setting.set(&mut Config::default(), text);
-                // A host may be called so, and a file may be called anything.
+                // A host name may look like this, and a file name may be anything.
                 let host = setting.name == "callback_allow" && text == "1e99";
                 let file = matches!(setting.value, Value::File { .. }) && !text.is_empty();
                 assert!(outcome.is_err() || host || file, "{} takes '{text}'", setting.name);

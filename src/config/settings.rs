@@ -9,17 +9,17 @@ use super::setting::{NeededBy, Setting, Value};
 use crate::telemetry;
 use crate::telemetry::LogFormat;
 
-/// The most threads, queue places and connections: far above any machine, far below what a typing error makes of them.
+/// The most threads, queue places and connections: far above any machine, far below common typing errors.
 const MAX_COUNT: u64 = 1_000_000;
 /// 1 GB.
 const MAX_BYTES: u64 = 1_000_000_000;
 
-/// A file that the service reads.
+/// A file setting of the service.
 const fn file(name: &'static str, help: &'static str, field: fn(&mut Config) -> &mut Option<PathBuf>) -> Setting {
     Setting { name, needed_by: NeededBy::Service, placeholder: "FILE", help, value: Value::File { field } }
 }
 
-/// A time in the service.
+/// A duration setting of the service.
 const fn milliseconds(
     name: &'static str,
     least: u64,
@@ -29,7 +29,7 @@ const fn milliseconds(
     Setting { name, needed_by: NeededBy::Service, placeholder: "MS", help, value: Value::Milliseconds { least, field } }
 }
 
-/// A count in the service.
+/// A count setting of the service.
 const fn count(name: &'static str, least: u64, help: &'static str, field: fn(&mut Config) -> &mut usize) -> Setting {
     let value = Value::Whole { least, most: MAX_COUNT, field };
     Setting { name, needed_by: NeededBy::Service, placeholder: "N", help, value }
@@ -127,7 +127,7 @@ pub static SETTINGS: &[Setting] = &[
     count("max_queued_jobs", 0, "Jobs that may wait in the store; more are refused with 503", |config| {
         &mut config.server.jobs.max_queued
     }),
-    // Below a second a busy machine would take jobs from workers that live.
+    // Below a second, jobs would be taken from live workers on a busy machine.
     milliseconds("job_lease_ms", 1000, "For how long a worker that says nothing keeps its job", |config| {
         &mut config.server.jobs.lease
     }),

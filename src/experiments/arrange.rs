@@ -1,4 +1,4 @@
-//! Where the discs of a made-up scene stand.
+//! Places the discs of a generated scene.
 
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
@@ -9,16 +9,17 @@ use rand_chacha::ChaCha8Rng;
 use super::recipe::{Arrangement, GenerateError, Recipe, between, whole_micrometres};
 use singulate_planner::scene::{Disc, distance};
 
-/// How often a place is drawn for one disc before the attempt is given up.
+/// Draws of a place for one disc before the attempt is given up.
 const TRIES: usize = 2_000;
-/// How often a full table is begun anew.
+/// Restarts with an empty table.
 const ATTEMPTS: usize = 30;
-/// Rounding to whole micrometres moves a centre by up to 0.71 µm; so much further off, rounded discs never overlap.
+/// Rounding to whole micrometres moves a centre by up to 0.71 µm; with this extra distance, rounded discs never
+/// overlap.
 const ROUNDING: f64 = 1e-6;
 
 /// As many discs as the recipe asks for.
 ///
-/// An attempt draws no random number that depends on the count: whatever number of discs fitted once fits again.
+/// The random numbers of an attempt don't depend on the count: a number of discs that fitted once fits again.
 pub(super) fn discs(recipe: &Recipe, random: &mut ChaCha8Rng) -> Result<Vec<Disc>, GenerateError> {
     let mut fitted = 0;
     for _ in 0..ATTEMPTS {
@@ -34,7 +35,7 @@ pub(super) fn discs(recipe: &Recipe, random: &mut ChaCha8Rng) -> Result<Vec<Disc
     Err(GenerateError::TooFull { fitted, wanted: recipe.objects })
 }
 
-/// The discs placed so far, in square cells so wide that only neighbouring ones can hold discs that touch.
+/// The discs placed so far, in a grid of cells so wide that touching discs are in neighbouring cells.
 struct Floor {
     min: Point2<f64>,
     max: Point2<f64>,
@@ -81,7 +82,7 @@ impl Floor {
         true
     }
 
-    /// Somewhere on the table, if a disc of a drawn radius finds room there.
+    /// Put a disc of a random radius at a random place, if it fits.
     fn put_anywhere(&mut self, recipe: &Recipe, random: &mut ChaCha8Rng) -> bool {
         let radius = whole_micrometres(between(random, recipe.radius));
         (0..TRIES).any(|_| {
@@ -108,12 +109,12 @@ struct Candidate {
     disc: Disc,
     /// From the cluster's centre, m.
     distance: f64,
-    /// The order in which candidates came up, which decides between equals.
+    /// Order of discovery, to break ties.
     number: usize,
 }
 
 impl Ord for Candidate {
-    /// The greatest is the one nearest to the cluster's centre: a `BinaryHeap` gives that one first.
+    /// The candidate nearest to the cluster's centre is the greatest, so that a `BinaryHeap` pops it first.
     fn cmp(&self, other: &Self) -> Ordering {
         other.distance.total_cmp(&self.distance).then(other.number.cmp(&self.number))
     }
@@ -133,9 +134,9 @@ impl PartialEq for Candidate {
 
 impl Eq for Candidate {}
 
-/// A cluster that grows from its centre: of all places that touch two of its discs the nearest to the centre is taken.
-/// Discs never leave, so a place once blocked is blocked for good. Each place has its own radius: small discs fit more
-/// often, so a mixed cluster holds more of them than of large ones.
+/// A cluster that grows from its centre: of all places that touch two of its discs, the one nearest to the centre is
+/// taken. Discs are never removed, so a blocked place stays blocked. Each place has its own radius: small discs fit
+/// more often, so a mixed cluster holds more small ones than large ones.
 fn pressed(recipe: &Recipe, random: &mut ChaCha8Rng) -> Floor {
     let mut floor = Floor::new(recipe);
     if !floor.put_anywhere(recipe, random) {
@@ -171,10 +172,10 @@ fn pressed(recipe: &Recipe, random: &mut ChaCha8Rng) -> Floor {
     floor
 }
 
-/// A disc next to `first`, on a side drawn evenly.
+/// A disc next to `first`, at a uniformly random angle.
 fn beside(first: Disc, recipe: &Recipe, random: &mut ChaCha8Rng) -> Disc {
     let direction = loop {
-        // A point of the unit disc gives a direction without any trigonometry.
+        // A point of the unit disc gives a direction without trigonometry.
         let point = Vector2::new(between(random, (-1.0, 1.0)), between(random, (-1.0, 1.0)));
         let length = (point.x * point.x + point.y * point.y).sqrt();
         if (0.1..=1.0).contains(&length) {
@@ -186,7 +187,7 @@ fn beside(first: Disc, recipe: &Recipe, random: &mut ChaCha8Rng) -> Disc {
     Disc { centre: rounded(first.centre + direction * apart), radius }
 }
 
-/// The centre of a disc of `radius` with the given gaps to `a` and `b`, to the left or right of the way from a to b.
+/// The centre of a disc of `radius` with the given gaps to `a` and `b`, left or right of the line from a to b.
 fn touching(a: Disc, b: Disc, radius: f64, gaps: (f64, f64), left: bool) -> Option<Point2<f64>> {
     let to_a = a.radius + radius + gaps.0 + ROUNDING;
     let to_b = b.radius + radius + gaps.1 + ROUNDING;

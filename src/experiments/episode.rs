@@ -12,26 +12,26 @@ use singulate_planner::knowledge::KnowledgeBase;
 use singulate_planner::plan::{Answer, GraspModel, SearchMethod, Settings, Verdict, plan};
 use singulate_planner::scene::{ObjectIndex, Scene};
 
-/// Everything that happened in one episode of Table I.
+/// The results of one episode of Table I.
 #[derive(Debug)]
 pub(super) struct Episode {
     pub(super) sector: OnBase,
     pub(super) swept_finger: OnBase,
     /// Our planner's answer with its default settings: places and check included.
     pub(super) answer: Answer,
-    /// How long that took.
+    /// Its time.
     pub(super) planning: Duration,
 }
 
 /// The searches on the base of one grasp model.
 #[derive(Debug)]
 pub(super) struct OnBase {
-    /// How long the base took.
+    /// The time for the base.
     pub(super) knowledge: Duration,
-    /// Only where it was asked for.
+    /// Only if requested.
     pub(super) baseline: Option<TimedSearch>,
     pub(super) lobs: TimedSearch,
-    /// Its ending is a proof unless it was late.
+    /// Its ending is a proof unless it timed out.
     pub(super) ours: TimedSearch,
 }
 
@@ -41,7 +41,7 @@ impl OnBase {
         Self { knowledge, baseline: None, lobs: run(SearchMethod::Lobs), ours: run(SearchMethod::Landmarks) }
     }
 
-    /// What one of the methods did.
+    /// The result of a method.
     pub(super) fn search(&self, method: SearchMethod) -> Option<&TimedSearch> {
         match method {
             SearchMethod::ForwardAstar => self.baseline.as_ref(),
@@ -68,7 +68,7 @@ pub(super) fn episode(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> 
     if !agree(swept_finger.ours.ending, &answer.verdict) {
         return Err(failed(Cause::Contradicted(swept_finger.ours.ending)));
     }
-    // By the swept finger only what is planned and checked counts as ours.
+    // By the swept finger only checked plans count as ours.
     if matches!(answer.verdict, Verdict::TimedOut(_)) {
         (swept_finger.ours.ending, swept_finger.ours.time) = (Ending::Late, patience.limit);
     }
@@ -87,7 +87,7 @@ pub(super) fn baseline(
 }
 
 impl Episode {
-    /// Add what the baseline did in the same scene.
+    /// Add the baseline's result for the same scene.
     pub(super) fn add(&mut self, baseline: [TimedSearch; 2]) -> Result<(), Cause> {
         for (on_base, search) in [&mut self.sector, &mut self.swept_finger].into_iter().zip(baseline) {
             not_refuted(search.ending, on_base.ours.ending)?;
@@ -97,7 +97,7 @@ impl Episode {
     }
 }
 
-/// The planner's answer, and how long it took.
+/// The planner's answer, and its time.
 pub(super) fn planned(
     scene: &Scene,
     settings: &Settings,
@@ -108,8 +108,7 @@ pub(super) fn planned(
     Ok((answer, watch.elapsed()))
 }
 
-/// No other search does better than ours proves possible: what they find are derivations, so that this would be a fault
-/// in our proof.
+/// Fails if another search beats our proof: every search finds derivations, so the fault would be in our proof.
 fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
     let refuted = match (ending, proven) {
         (Ending::Sequence(found), Ending::Sequence(least)) => found < least,
@@ -119,7 +118,7 @@ fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
     if refuted { Err(Cause::Refuted { ending, proven }) } else { Ok(()) }
 }
 
-/// True if search and planner say the same, as far as each got.
+/// True if search and planner agree, as far as each got.
 fn agree(ours: Ending, verdict: &Verdict) -> bool {
     match (ours, verdict) {
         (Ending::Late | Ending::TooLarge, _) | (_, Verdict::TimedOut(_)) => true,

@@ -13,7 +13,7 @@ pub struct ExperimentError {
     pub objects: usize,
     /// The seed of the scene.
     pub seed: u64,
-    /// What went wrong.
+    /// The cause.
     pub cause: Cause,
 }
 
@@ -32,9 +32,9 @@ pub enum Cause {
     /// Another search refutes our proof on the same base: a bug of ours.
     #[error("a search ends with {ending:?} where ours proves {proven:?}")]
     Refuted {
-        /// What the other search found.
+        /// The other search's result.
         ending: Ending,
-        /// What ours calls proven.
+        /// Our proven result.
         proven: Ending,
     },
     /// Our search and our planner, which build on the same knowledge, contradict each other: a bug of ours.

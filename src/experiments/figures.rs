@@ -1,4 +1,4 @@
-//! Episodes summed up.
+//! Sums of episodes.
 
 use super::episode::{Episode, OnBase};
 use super::interval::Interval;
@@ -9,9 +9,9 @@ use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
 /// All methods on the bases of one grasp model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelFigures {
-    /// Which yaws an obstacle blocks.
+    /// The yaws that an obstacle blocks.
     pub grasp_model: GraspModel,
-    /// How long a complete base took, s.
+    /// The time for a complete base, s.
     pub knowledge_s: Option<Spread>,
     /// The baseline, LOBS, ours.
     pub methods: [MethodFigures; 3],
@@ -22,42 +22,42 @@ pub struct ModelFigures {
 pub struct MethodFigures {
     /// The search.
     pub method: SearchMethod,
-    /// How many scenes it was given.
+    /// The number of its scenes.
     pub episodes: usize,
-    /// Episodes that it calls a deadlock.
+    /// Episodes with a deadlock.
     pub deadlocks: usize,
     /// Episodes that ended with a sequence or a deadlock.
     pub successes: usize,
     /// Of the successes, sequences without any relocation: the target is graspable at once.
     pub graspable: usize,
-    /// Episodes that the time limit ended.
+    /// Episodes that timed out.
     pub late: usize,
-    /// Episodes that the limit of memory ended.
+    /// Episodes that reached the memory limit.
     pub too_large: usize,
-    /// Deadlocks that are none, by our proof on the same base.
+    /// False deadlocks, by our proof on the same base.
     pub false_deadlocks: usize,
     /// Sequences longer than the least one, by our proof on the same base.
     pub not_optimal: usize,
-    /// Search time, s, over all episodes; those that did not end by themselves count as the time limit.
+    /// Search time, s, over all episodes; unfinished ones count as the time limit.
     pub search_s: Option<Spread>,
     /// Mean number of relocations over the episodes with a sequence, the target not counted.
     pub relocations_mean: Option<f64>,
 }
 
-/// What became of some scenes in our planner.
+/// Our planner's verdicts on some scenes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanFigures {
-    /// How many scenes.
+    /// The number of scenes.
     pub episodes: usize,
     /// The target is graspable at once.
     pub graspable: usize,
-    /// A plan, checked.
+    /// A checked plan.
     pub relocate: usize,
-    /// Of those, plans that are proven to be as short as any.
+    /// Of those, plans proven to be optimal.
     pub optimal: usize,
     /// A proven deadlock.
     pub deadlock: usize,
-    /// No place was found for what has to move.
+    /// No places were found.
     pub no_space: usize,
     /// The time limit came first.
     pub timed_out: usize,
@@ -113,7 +113,7 @@ impl MethodFigures {
         }
     }
 
-    /// How sure the deadlock rate is (95 %).
+    /// The 95 % interval of the deadlock rate.
     pub fn deadlock_interval(&self) -> Interval {
         Interval::wilson(self.deadlocks, self.episodes)
     }

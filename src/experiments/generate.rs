@@ -1,4 +1,4 @@
-//! From a recipe and a seed to a scene: the same bytes on any machine, since only + − × ÷ √ take part.
+//! From a recipe and a seed to a scene: the same bytes on any machine, since only + − × ÷ √ are used.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,17 +7,17 @@ use super::arrange;
 use super::recipe::{GenerateError, Recipe, rectangle};
 use singulate_planner::scene::{Disc, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, TableDraft};
 
-/// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; no two discs overlap
-/// and none stands out over the table's edge. The target is the object with the closest crowd round it.
+/// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; discs don't
+/// overlap and none hangs over the table's edge. The target is the most crowded object.
 ///
 /// # Errors
-/// [`GenerateError`], with the number of objects that fitted where the table is too full.
+/// [`GenerateError`]; if the table is too full, with the number of objects that fitted.
 pub fn generate(recipe: &Recipe, seed: u64) -> Result<SceneDraft, GenerateError> {
     recipe.check()?;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let discs = arrange::discs(recipe, &mut random)?;
     let draft = draft(recipe, &discs);
-    // Neither limit is this function's affair: who plans for the scene has his own.
+    // These limits don't matter here: the reader of the scene has its own.
     let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
     let (scene, _) = Scene::new(draft.clone(), &limits).map_err(GenerateError::Scene)?;
     let target = most_crowded(&scene);
@@ -46,7 +46,7 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
     }
 }
 
-/// The object with the most neighbours in reach of its grasp; of several the one whose neighbours stand closest.
+/// The object with the most neighbours in reach of its grasp; ties go to the one with the closest neighbours.
 fn most_crowded(scene: &Scene) -> ObjectIndex {
     let crowd = |index: ObjectIndex| {
         let disc = scene.object(index).disc();
@@ -57,7 +57,7 @@ fn most_crowded(scene: &Scene) -> ObjectIndex {
             .filter(|(other, _)| *other != index)
             .map(|(_, other)| other.gap(&disc))
             .collect();
-        // Sums depend on the order of their terms, and the index promises none.
+        // Sums depend on the order of their terms, and the index gives them in no fixed order.
         gaps.sort_unstable_by(f64::total_cmp);
         (gaps.len(), gaps.iter().sum::<f64>())
     };

@@ -1,4 +1,4 @@
-//! How much a rate from a few episodes says.
+//! Confidence intervals of rates.
 
 /// The 97.5th percentile of the standard normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
@@ -13,8 +13,8 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The 95 % score interval of Wilson (1927) for a rate of which `hits` in `trials` were seen. Unlike the usual ± it
-    /// says something for 0 in 20, too. Without any trial it is everything.
+    /// The 95 % score interval of Wilson (1927) for the rate of `hits` in `trials`. Unlike the usual ± it is meaningful
+    /// for 0 in 20, too. Without trials it is [0, 1].
     pub fn wilson(hits: usize, trials: usize) -> Self {
         if trials == 0 {
             return Self { low: 0.0, high: 1.0 };
@@ -23,7 +23,7 @@ impl Interval {
         let middle = rate + Z * Z / (2.0 * count);
         let half = Z * (rate * (1.0 - rate) / count + Z * Z / (4.0 * count * count)).sqrt();
         let whole = 1.0 + Z * Z / count;
-        // Rounding alone could lead out of the range.
+        // Rounding could leave the range.
         Self { low: ((middle - half) / whole).max(0.0), high: ((middle + half) / whole).min(1.0) }
     }
 

@@ -1,4 +1,4 @@
-//! Scenes made up from a seed, and the paper's tables run on them.
+//! Generated scenes, and the paper's tables run on them.
 
 mod arrange;
 mod episode;
@@ -30,12 +30,12 @@ pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
 pub use timed_search::Ending;
 pub use varied::varied;
 
-/// How to run a table.
+/// The settings of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExperimentSettings {
     /// Episodes in each column, one or more.
     pub episodes: usize,
-    /// Those of them, the first ones, that Table I gives the baseline too, which may take the whole time limit for each.
+    /// The first of them, which the baseline runs too in Table I: it may take the whole time limit for each.
     pub base_episodes: usize,
     /// The same seed gives the same scenes, on any machine.
     pub seed: u64,

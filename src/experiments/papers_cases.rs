@@ -1,4 +1,4 @@
-//! The cases of the paper's section V, with what its Tables I and II print.
+//! The cases of the paper's section V, with the figures of its Tables I and II.
 
 use super::interval::Interval;
 use super::recipe::Recipe;
@@ -16,28 +16,28 @@ pub struct PapersCase {
     pub objects: usize,
     /// Width and height of the table, m.
     pub table: (f64, f64),
-    /// What Table I prints for the baseline.
+    /// The baseline's figures in Table I.
     pub base: Printed,
-    /// What Table I prints for LOBS, "Ours" there.
+    /// The figures of LOBS in Table I, "Ours" there.
     pub lobs: Printed,
-    /// What Table II prints. It has Case I only.
+    /// The figures of Table II, which has Case I only.
     pub reposition: Option<PrintedReposition>,
 }
 
-/// What Table I prints for one method, as it stands there.
+/// One method's figures in Table I.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Printed {
     /// Episodes of [`TABLE1_EPISODES`] called a deadlock: there a rate in steps of 5 %.
     pub deadlocks: usize,
-    /// Episodes decided within a minute, likewise.
+    /// Episodes of [`TABLE1_EPISODES`] decided within a minute.
     pub successes: usize,
     /// Mean search time, s.
     pub search_s: f64,
-    /// Mean length of the sequences, 0 where there is none. Algorithm 1 as printed counts the target too.
+    /// Mean length of the sequences, 0 if there is none. Algorithm 1 as printed counts the target too.
     pub relocations: f64,
 }
 
-/// What Table II prints for one column.
+/// The figures of one column of Table II.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrintedReposition {
     /// Episodes of [`TABLE2_EPISODES`] with a place for every object: there a rate in steps of 10 %.
@@ -88,7 +88,7 @@ impl Printed {
         self.deadlocks as f64 / TABLE1_EPISODES as f64
     }
 
-    /// How sure the deadlock rate is (95 %).
+    /// The 95 % interval of the deadlock rate.
     pub fn deadlock_interval(&self) -> Interval {
         Interval::wilson(self.deadlocks, TABLE1_EPISODES)
     }

@@ -13,7 +13,7 @@ use singulate_planner::knowledge::{KnowledgeBase, complete};
 use singulate_planner::plan::GraspModel;
 use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
 
-/// So far apart lie the seeds of two columns, whose scenes on one table would otherwise begin alike.
+/// The distance between the seeds of two columns, since columns with the same table would otherwise share scenes.
 const COLUMN_SEEDS: u64 = 1_000_000;
 
 /// A scene to search and plan for.
@@ -22,17 +22,17 @@ pub(super) struct PapersScene {
     pub(super) scene: Scene,
     /// The complete base by the sector model.
     pub(super) sector: KnowledgeBase,
-    /// How long that took.
+    /// The time for the base.
     pub(super) knowledge: Duration,
 }
 
-/// The seed of an episode: what `singulate generate` makes of it are the same discs, though with another target.
+/// The seed of an episode: `singulate generate` makes the same discs from it, with another target.
 pub(super) fn seed_of(seed: u64, column: usize, episode: usize) -> u64 {
     seed.wrapping_add(column as u64 * COLUMN_SEEDS).wrapping_add(episode as u64)
 }
 
 /// The scene of one seed. Its target is the object with the largest G_min, the least number of obstacles at any yaw, by
-/// the paper's own sector model; the first of several.
+/// the paper's sector model; ties go to the first.
 pub(super) fn papers_scene(
     case: &PapersCase,
     seed: u64,
@@ -49,7 +49,7 @@ pub(super) fn papers_scene(
     Ok(PapersScene { scene, sector, knowledge })
 }
 
-/// The base of all objects, without a time limit: it is no part of what is measured against one.
+/// The base of all objects, without a time limit: it is not part of the measured times.
 pub(super) fn complete_base(
     case: &PapersCase,
     seed: u64,
@@ -66,7 +66,7 @@ pub(super) fn complete_base(
 
 fn hardest(base: &KnowledgeBase) -> ObjectIndex {
     let g_min = |object: ObjectIndex| base.options(object).map(<[_]>::len).min().unwrap_or_default();
-    // Of equals the first, which a maximum would not give.
+    // Ties go to the first; `max_by_key` would give the last.
     base.objects().min_by_key(|object| Reverse(g_min(*object))).expect("the paper's cases have objects")
 }
 

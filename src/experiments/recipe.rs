@@ -1,4 +1,4 @@
-//! What kind of scene is to be made up, and the figures in which all that make it draw and write.
+//! Recipes of generated scenes, and the number helpers of their generators.
 
 use nalgebra::Point2;
 use rand::RngExt;
@@ -6,20 +6,20 @@ use rand_chacha::ChaCha8Rng;
 
 use singulate_planner::scene::{Finding, GripperDraft, LENGTH_RANGE, RectangleDraft};
 
-/// How the objects stand.
+/// The arrangement of the objects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Arrangement {
-    /// Anywhere, evenly.
+    /// Uniformly at random.
     #[default]
     Loose,
     /// In one dense cluster, each object up to the recipe's gap from two others.
     Pressed,
 }
 
-/// What kind of scene.
+/// A kind of scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recipe {
-    /// How many objects, the target included.
+    /// The number of objects, the target included.
     pub objects: usize,
     /// Width and height of the table, m.
     pub table: (f64, f64),
@@ -29,11 +29,11 @@ pub struct Recipe {
     pub radius: (f64, f64),
     /// The gripper.
     pub gripper: GripperDraft,
-    /// How likely an object other than the target is fixed, 0 to 1.
+    /// The probability that an object other than the target is fixed.
     pub fixed_share: f64,
-    /// How the objects stand.
+    /// The arrangement of the objects.
     pub arrangement: Arrangement,
-    /// The widest gap between an object of a pressed cluster and the two that it was put to, m.
+    /// The largest gap between an object of a pressed cluster and its two supports, m.
     pub pressed_gap: f64,
 }
 
@@ -60,28 +60,28 @@ impl Default for Recipe {
     }
 }
 
-/// No scene can be made from the recipe.
+/// Why no scene can be made from the recipe.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GenerateError {
     /// The table is too full.
     #[error("{fitted} of {wanted} objects fitted on the table")]
     TooFull {
-        /// The most that stood on the table in any attempt.
+        /// The most objects placed in any attempt.
         fitted: usize,
-        /// What the recipe asks for.
+        /// The number in the recipe.
         wanted: usize,
     },
-    /// A figure of the recipe makes no sense.
+    /// A figure of the recipe is invalid.
     #[error("{0}")]
     Recipe(&'static str),
-    /// The scene would be refused, by its table or its gripper.
+    /// The table or the gripper of the scene is invalid.
     #[error("{}", .0.iter().map(|finding| finding.flaw.to_string()).collect::<Vec<_>>().join("; "))]
     Scene(Vec<Finding>),
 }
 
 impl Recipe {
     /// # Errors
-    /// [`GenerateError::Recipe`] where a figure makes no sense.
+    /// [`GenerateError::Recipe`] if a figure is invalid.
     pub(super) fn check(&self) -> Result<(), GenerateError> {
         let length = |value: f64| (LENGTH_RANGE.0..=LENGTH_RANGE.1).contains(&value);
         let (least, greatest) = self.radius;
@@ -108,17 +108,17 @@ impl Recipe {
     }
 }
 
-/// With these corners.
+/// A rectangle with these corners.
 pub(super) fn rectangle(min: Point2<f64>, max: Point2<f64>) -> RectangleDraft {
     RectangleDraft { x_min: Some(min.x), y_min: Some(min.y), x_max: Some(max.x), y_max: Some(max.y) }
 }
 
-/// A JSON file with more digits than this is a nuisance to read.
+/// Rounded, since a JSON file with more digits is hard to read.
 pub(super) fn whole_micrometres(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
-/// A number from `least` to `greatest`.
+/// A random number from `least` to `greatest`.
 pub(super) fn between(random: &mut ChaCha8Rng, (least, greatest): (f64, f64)) -> f64 {
     let share: f64 = random.random();
     least + share * (greatest - least)

@@ -1,4 +1,4 @@
-//! What some figures come to.
+//! Mean and median of figures.
 
 use core::time::Duration;
 
@@ -7,12 +7,12 @@ use core::time::Duration;
 pub struct Spread {
     /// The arithmetic mean.
     pub mean: f64,
-    /// The figure in the middle; the mean of both where two are.
+    /// The median.
     pub median: f64,
 }
 
 impl Spread {
-    /// `None` where there is no figure.
+    /// `None` without figures.
     pub(super) fn of(figures: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = figures.into_iter().collect();
         sorted.sort_unstable_by(f64::total_cmp);

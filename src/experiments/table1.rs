@@ -1,4 +1,4 @@
-//! Table I: who finds what, and how fast.
+//! Table I: deadlocks, successes and times of the searches.
 
 use super::ExperimentSettings;
 use super::episode::{Episode, baseline, episode};
@@ -13,7 +13,7 @@ use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
 /// One column of Table I.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table1Column {
-    /// What was asked, with what the paper prints.
+    /// The case, with the paper's figures.
     pub case: PapersCase,
     /// By the paper's sector model.
     pub sector: ModelFigures,
@@ -21,11 +21,11 @@ pub struct Table1Column {
     pub swept_finger: ModelFigures,
     /// Our planner's verdicts on every scene, by the swept finger: planned with places, and checked.
     pub plans: PlanFigures,
-    /// The same for those scenes alone that are a deadlock by the sector model and none by the swept finger.
+    /// The same for the scenes that are a deadlock by the sector model but not by the swept finger.
     pub extra: PlanFigures,
 }
 
-/// Run Table I. `done` hears how much of how much is done.
+/// Run Table I. `done` gets the number of finished steps and their total.
 ///
 /// # Errors
 /// [`ExperimentError`] if an episode fails: a bug of ours, or a table too full for the objects.
@@ -41,7 +41,7 @@ pub fn table1(
         episode(&PAPERS_CASES[column], seed(column, number), &Patience { limit: settings.time_limit, failed })
     };
     let mut all = in_parallel(first, settings.jobs, run, |count| done(count, first + second))?;
-    // All else first: the memory that the baseline fills and gives back must weigh on no other search's time.
+    // The baseline runs last, since filling and freeing its memory would slow down other searches.
     let run = |at: usize, failed: &_| {
         let (column, number) = (at / baselines, at % baselines);
         baseline(&PAPERS_CASES[column], seed(column, number), &Patience { limit: settings.time_limit, failed })
@@ -75,12 +75,13 @@ impl Table1Column {
         }
     }
 
-    /// True if the deadlock rate of LOBS by the sector model can't well be the paper's: the 95 % intervals do not overlap.
+    /// True if the deadlock rate of LOBS by the sector model is unlikely to be the paper's: the 95 % intervals do not
+    /// overlap.
     pub fn disagrees(&self) -> bool {
         !self.sector.method(SearchMethod::Lobs).deadlock_interval().overlaps(&self.case.lobs.deadlock_interval())
     }
 
-    /// Our deadlocks by the swept finger over ours by the sector model; `None` where there are none of those.
+    /// Our deadlocks by the swept finger over ours by the sector model; `None` if the latter are 0.
     pub fn deadlock_ratio(&self) -> Option<f64> {
         let deadlocks = |model: &ModelFigures| model.method(SearchMethod::Landmarks).deadlocks as f64;
         (deadlocks(&self.sector) > 0.0).then(|| deadlocks(&self.swept_finger) / deadlocks(&self.sector))

@@ -1,4 +1,4 @@
-//! Table II: where the relocated objects go.
+//! Table II: places for relocated objects.
 
 use core::time::Duration;
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ use singulate_planner::plan::check::FaultCode;
 use singulate_planner::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
 use singulate_planner::scene::Scene;
 
-/// The ways to find places that are compared.
+/// The compared placement methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Repositioning {
     /// The paper's, with [`DEFAULT_RESOLUTION`] to a pixel.
@@ -39,56 +39,56 @@ impl Repositioning {
     }
 }
 
-/// So many scenes are drawn for each episode that is wanted, and no more: where the time limit is so short that LOBS never
-/// comes to an end, there is no episode at all.
+/// The most scenes drawn per wanted episode. If the time limit is so short that LOBS never ends, there is no episode at
+/// all.
 const MAX_DRAWN: usize = 50;
 
 /// One column of Table II.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table2Column {
-    /// What was asked, with what the paper prints.
+    /// The case, with the paper's figures.
     pub case: PapersCase,
-    /// How many scenes were drawn for the episodes.
+    /// The number of scenes drawn for the episodes.
     pub drawn: usize,
-    /// Each way to find places, on the same sequences.
+    /// Each placement method, on the same sequences.
     pub placements: [PlacementFigures; 2],
 }
 
-/// One way to find places for the sequences of LOBS on the sector model's base.
+/// One placement method for the sequences of LOBS on the sector model's base.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacementFigures {
-    /// How places are found.
+    /// The method.
     pub placement: Repositioning,
-    /// How many sequences it was given.
+    /// The number of its sequences.
     pub episodes: usize,
     /// Episodes with a place for every object of the sequence.
     pub successes: usize,
-    /// Of those, episodes in which none is needed: the target is graspable at once.
+    /// Of those, episodes that need none: the target is graspable at once.
     pub graspable: usize,
-    /// Episodes without.
+    /// Episodes without places.
     pub no_space: usize,
-    /// Episodes that the time limit ended.
+    /// Episodes that timed out.
     pub late: usize,
-    /// Time to find the places of one episode, s, where any is needed; late ones count as the time limit.
+    /// Time to find the places of one episode, s, if any are needed; time-outs count as the time limit.
     pub reposition_s: Option<Spread>,
-    /// Plans in which the checker, which judges by the swept finger, finds any fault.
+    /// Plans with any fault by the checker, which uses the swept finger.
     pub faulty: usize,
-    /// Plans in which a finger meets an obstacle when it lets go: the gap that the paper itself states.
+    /// Plans in which a finger meets an obstacle at release: a limitation that the paper itself states.
     pub release_blocked: usize,
     /// Plans with any other fault.
     pub otherwise_faulty: usize,
-    /// How often each fault came up in all plans, by its code.
+    /// The number of each fault in all plans, by code.
     pub faults: BTreeMap<&'static str, usize>,
 }
 
-/// What one way to find places made of one sequence.
+/// One placement method's result for one sequence.
 struct Placed {
     placement: Repositioning,
     answer: Answer,
     time: Duration,
 }
 
-/// Run Table II. `done` hears how much of how much is done.
+/// Run Table II. `done` gets the number of finished steps and their total.
 ///
 /// # Errors
 /// [`ExperimentError`] if an episode fails: a bug of ours, or a table too full for the objects.
@@ -126,7 +126,7 @@ pub fn table2(
 /// The first scenes for which LOBS finds a sequence.
 struct Drawn {
     seeds: Vec<u64>,
-    /// How many were looked at.
+    /// The number of scenes examined.
     count: usize,
 }
 
@@ -149,7 +149,7 @@ fn draw(
     Ok(drawn)
 }
 
-/// One sequence, every way to find places.
+/// One sequence with every placement method.
 fn place(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Vec<Placed>, ExperimentError> {
     let scene = papers_scene(case, seed, patience)?.scene;
     let placed = |placement| place_by(&scene, placement, patience);
@@ -201,7 +201,7 @@ fn is_graspable(answer: &Answer) -> bool {
     matches!(answer.verdict, Verdict::Graspable(_))
 }
 
-/// What the checker has against an answer.
+/// The checker's faults in an answer.
 fn faults(answer: &Answer) -> impl Iterator<Item = FaultCode> {
     answer.warnings.iter().filter_map(|warning| match warning {
         Warning::Faulty(fault) => Some(fault.code),

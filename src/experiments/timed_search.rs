@@ -1,4 +1,4 @@
-//! One search on one base, by the clock.
+//! One timed search on one base.
 
 use core::time::Duration;
 
@@ -8,20 +8,20 @@ use singulate_planner::knowledge::KnowledgeBase;
 use singulate_planner::plan::{SearchLimits, SearchMethod, Sought, seek_within};
 use singulate_planner::scene::ObjectIndex;
 
-/// Some 100 bytes a state of the baseline for the paper's scenes, whose sets of objects fit into one word; some 50 MB for
-/// LOBS.
+/// Some 100 bytes per state of the baseline for the paper's scenes, whose sets of objects fit into one word; some 50 MB
+/// for LOBS.
 const LIMITS: SearchLimits = SearchLimits { lobs_members: 5_000_000, astar_states: 5_000_000, astar_words: 5_000_000 };
 
-/// How a search ended.
+/// The end of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// With a sequence of so many relocations, the target not counted.
+    /// A sequence of this many relocations, without the target.
     Sequence(usize),
-    /// It says that there is none.
+    /// A deadlock.
     Deadlock,
-    /// The time limit came first.
+    /// The time limit.
     Late,
-    /// The limit of memory came first.
+    /// The memory limit.
     TooLarge,
 }
 
@@ -29,11 +29,11 @@ pub enum Ending {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TimedSearch {
     pub(super) ending: Ending,
-    /// The time limit for one that did not end by itself: with more memory it would have gone on.
+    /// The time limit for a search that did not finish, since with more memory it would have gone on.
     pub(super) time: Duration,
 }
 
-/// Search `base`, a complete one, for what frees `target`.
+/// Search `base`, which is complete, for relocations that free `target`.
 pub(super) fn timed_search(
     method: SearchMethod,
     base: &KnowledgeBase,

@@ -1,4 +1,4 @@
-//! Scenes of every kind, for tests that hunt for a surprise.
+//! Random scenes of every kind, for tests.
 
 use nalgebra::Point2;
 use rand::{RngExt, SeedableRng};
@@ -8,10 +8,10 @@ use super::generate::generate;
 use super::recipe::{Arrangement, GenerateError, Recipe, between, rectangle, whole_micrometres};
 use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft};
 
-/// Some scene: 2 to 6 fingers, 2 to 80 objects (fewer where they don't fit), equal and mixed radii, loose and pressed,
+/// A random scene: 2 to 6 fingers, 2 to 80 objects (fewer if they don't fit), equal and mixed radii, loose and pressed,
 /// with and without fixed objects, margin, yaw tolerance and keep-out, the table at the origin or elsewhere.
 pub fn varied(seed: u64) -> SceneDraft {
-    // Not the stream from which `generate` draws.
+    // Another stream than the one of `generate`.
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(1);
     let mut recipe = recipe(&mut random);
@@ -32,7 +32,7 @@ fn chance(random: &mut ChaCha8Rng, probability: f64) -> bool {
     random.random::<f64>() < probability
 }
 
-/// A whole number from `least` to `greatest`.
+/// A random integer from `least` to `greatest`.
 fn whole(random: &mut ChaCha8Rng, least: u32, greatest: u32) -> u32 {
     let count = greatest - least + 1;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the count")]
@@ -55,12 +55,12 @@ fn recipe(random: &mut ChaCha8Rng) -> Recipe {
         gripper,
         fixed_share: if chance(random, 0.5) { 0.0 } else { between(random, (0.02, 0.3)) },
         arrangement,
-        // In contact nearly everything locks; a finger's width apart there is something to plan.
+        // In contact nearly everything locks; with gaps of a finger's width there is something to plan.
         pressed_gap: if chance(random, 0.25) { 2e-3 } else { between(random, (0.5, 3.0)) * finger_width },
     }
 }
 
-/// Wide enough that the discs cover 15 to 50 per cent of it, and that one disc always fits.
+/// A table of which the discs cover 15 to 50 per cent, and on which one disc always fits.
 fn table(random: &mut ChaCha8Rng, objects: u32, mean_radius: f64, greatest_radius: f64) -> (f64, f64) {
     let coverage = between(random, (0.15, 0.5));
     let area = f64::from(objects) * core::f64::consts::PI * mean_radius * mean_radius / coverage;

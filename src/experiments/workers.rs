@@ -1,4 +1,4 @@
-//! Episodes on several threads.
+//! Runs episodes on several threads.
 
 use core::time::Duration;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use singulate_planner::budget::Clock;
 
-/// What a computation's clock needs to be made: its time limit, and whether another episode has failed.
+/// Makes the clocks of computations: the time limit, and whether another episode has failed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Patience<'a> {
     pub(super) limit: Duration,
@@ -38,11 +38,10 @@ impl Clock for Watch<'_> {
     }
 }
 
-/// Do the work for 0 to `count`, on `jobs` threads. The results stand in order, whichever thread was first; `done` hears
-/// after each how many there are.
+/// Run `work` for 0 to `count` on `jobs` threads. The results are in order; `done` gets the number finished after each.
 ///
 /// # Errors
-/// The first failure; the flag that the work is given tells the others to stop.
+/// The first failure; a flag tells the other threads to stop.
 pub(super) fn in_parallel<T: Send, E: Send>(
     count: usize,
     jobs: usize,

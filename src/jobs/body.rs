@@ -1,4 +1,4 @@
-//! A job in the words of the wire.
+//! A job in its wire form.
 
 use super::job::{Event, EventKind, Job, JobState};
 use super::timestamp::Timestamp;
@@ -6,7 +6,7 @@ use crate::wire::{IncumbentBody, JobBody, JobStateWord};
 use singulate_planner::search::Incumbent;
 
 impl Job {
-    /// As it is served.
+    /// The job as it is served.
     pub fn body(&self) -> JobBody {
         JobBody {
             id: self.id.to_string(),
@@ -26,7 +26,7 @@ impl Job {
         }
     }
 
-    /// As it was served, or would have been, right after the event.
+    /// The job as it was right after the event.
     #[must_use]
     pub fn as_of(&self, event: &Event) -> Self {
         let Event { attempts, incumbent, queue_position, .. } = *event;
@@ -40,15 +40,15 @@ impl Job {
         }
     }
 
-    /// As if it had not ended.
+    /// The job without its end.
     fn unfinished(self) -> Self {
-        // As long after its beginning as it is kept after its end.
+        // Like an ended job, it is kept as long after its beginning as after its end.
         let kept = |end| self.created_at.after(self.expires_at.since(end));
         let expires_at = self.finished_at.map_or(self.expires_at, kept);
         Self { finished_at: None, expires_at, result: None, problem: None, version: None, ..self }
     }
 
-    /// When the attempt of this event began.
+    /// The beginning of this event's attempt.
     fn begun_before(&self, event: &Event) -> Option<Timestamp> {
         let begins = |other: &&Event| {
             other.kind == EventKind::Running && other.attempts == event.attempts && other.at <= event.at
@@ -59,7 +59,7 @@ impl Job {
 
 /// The body of a callback.
 pub fn message(job: &Job) -> Vec<u8> {
-    // It is made of strings and numbers.
+    // It holds only strings and numbers.
     serde_json::to_vec(&job.body()).unwrap_or_default()
 }
 

@@ -1,10 +1,10 @@
-//! How jobs end: the answer or the problem that is kept of one, which is written here, once, and nowhere else.
+//! How jobs end. The stored answer or problem is written only here.
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
 use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson, VerdictWord};
 
-/// How a running job ends. A job whose caller cancelled it ends as cancelled, with the answer if there is one.
+/// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
     /// With this answer.
@@ -14,7 +14,7 @@ pub enum End {
 }
 
 impl End {
-    /// The end of a job that has ended as many workers as it may.
+    /// The end of a job that has lost as many workers as allowed.
     pub(super) fn poisoned() -> Self {
         let detail =
             format!("{MAX_ATTEMPTS} workers began this job and were not heard of again; it is not begun once more");
@@ -26,7 +26,7 @@ impl End {
     }
 }
 
-/// How a worker's job ends, and the same in short.
+/// How a worker's job ends, in full and for logs and metrics.
 pub(super) struct Concluded {
     pub(super) end: End,
     pub(super) verdict: Option<VerdictWord>,
@@ -34,7 +34,7 @@ pub(super) struct Concluded {
 }
 
 impl Concluded {
-    /// A defect of ours keeps the job from an answer.
+    /// A defect of the service keeps the job from an answer.
     pub(super) fn internal() -> Self {
         Problem::new(ProblemKind::Internal, "the job could not be planned").into()
     }
@@ -58,7 +58,7 @@ impl From<Problem> for Concluded {
     }
 }
 
-/// A job has ended without a worker.
+/// Logs the end of a job that ended without a worker.
 pub fn job_ended(job: JobId, state: Ended) {
     tracing::info!(%job, state = state.as_str(), "job ended");
 }

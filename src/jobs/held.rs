@@ -1,4 +1,4 @@
-//! A job that this server holds: its lease is kept, its best is told, its end is kept.
+//! A job held by this server: renews its lease, stores its incumbents and its end.
 
 use core::time::Duration;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,13 +13,13 @@ use super::timestamp::{Timestamp, WallClock};
 use super::upkeep::Pause;
 use singulate_planner::search::Incumbent;
 
-/// The least time between two notes of the best so far: nobody reads faster, and each is a write.
+/// The least time between two writes of the incumbent: no reader is faster.
 const NOTE_EVERY: Duration = Duration::from_millis(100);
 
-/// How long after a note that failed it is tried again.
+/// The pause after a failed write of the incumbent.
 const NOTE_AGAIN: Duration = Duration::from_secs(1);
 
-/// When to look at a new lease for the first time. Most jobs have ended by then, and cost no write more.
+/// The first renewal of a new lease. Most jobs have ended by then and need no extra write.
 const FIRST_LOOK: Duration = Duration::from_millis(10);
 
 /// A claimed job.
@@ -27,7 +27,7 @@ pub(super) struct Held {
     store: Arc<dyn Store>,
     claim: Claim,
     lease: Duration,
-    /// The best that the store knows.
+    /// The incumbent in the store.
     noted: Mutex<Option<Incumbent>>,
 }
 
@@ -36,25 +36,25 @@ impl Held {
         Self { store, claim, lease, noted: Mutex::default() }
     }
 
-    /// Keeps the lease and passes on what is known; calls `cancelled` once the caller wants no more. Done once the lease is
+    /// Renews the lease and stores incumbents; calls `cancelled` once the job was cancelled. Done once the lease is
     /// lost.
     pub(super) async fn keep(&self, incumbent: &mut watch::Receiver<Option<Incumbent>>, cancelled: impl Fn()) {
         let holder = self.store.hints().hold(self.claim.id);
         let mut recalled = Box::pin(holder.changed());
-        // The lease is new; but a wish to cancel may have come between the claim and the holding.
+        // The lease is new, but the job may have been cancelled between the claim and `hold`.
         let mut renewal = interval_at(Instant::now() + FIRST_LOOK, self.lease / 3);
         renewal.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut next_note = Instant::now();
         let mut told = true;
         loop {
-            // The wait for news comes last: what it has seen would be lost if another branch went first.
+            // The wait for news comes last: if another branch went first, the news it has seen would be lost.
             let noting = async {
                 sleep_until(next_note).await;
                 incumbent.changed().await
             };
             let renewed = tokio::select! {
                 _ = renewal.tick() => self.renew().await,
-                // It was cancelled, or is somebody else's.
+                // The job was cancelled, or another worker has it.
                 () = recalled.as_mut() => {
                     recalled = Box::pin(holder.changed());
                     self.renew().await
@@ -63,7 +63,7 @@ impl Held {
                     told = news.is_ok();
                     let best = *incumbent.borrow_and_update();
                     let noted = self.note(best).await;
-                    // What the store does not have stays news.
+                    // News that could not be stored stays news.
                     if noted.is_err() {
                         incumbent.mark_changed();
                     }
@@ -75,13 +75,13 @@ impl Held {
                 Ok(Renewal::Held) => {}
                 Ok(Renewal::Cancelled) => cancelled(),
                 Ok(Renewal::Lost) => return self.warn("the lease is lost", None),
-                // Planning goes on: the lease may hold until the store is back.
+                // Planning goes on: the store may be back before the lease ends.
                 Err(error) => self.warn("the store could not be told of a running job", Some(&error)),
             }
         }
     }
 
-    /// Keep the end, however long the store is away, until the server has no more time. True if it is kept.
+    /// Stores the end, retrying while the store is away until the server's time is over. True if it is stored.
     pub(super) async fn finish(&self, best: Option<Incumbent>, end: &End, over: &CancellationToken) -> bool {
         let mut pause = Pause::default();
         loop {
@@ -100,7 +100,7 @@ impl Held {
         }
     }
 
-    /// Queue the job again, as if nobody had begun.
+    /// Puts the job back into the queue, as if it had not been claimed.
     pub(super) async fn hand_back(&self) {
         match self.store.hand_back(self.claim, Timestamp::now()).await {
             Ok(true) => tracing::info!(job = %self.claim.id, "job handed back"),
@@ -114,7 +114,7 @@ impl Held {
     }
 
     async fn note(&self, best: Option<Incumbent>) -> Result<bool, StoreError> {
-        // No invariant of a copied value can be broken by a panic.
+        // No invariant of a `Copy` value can be broken by a panic.
         let noted = || self.noted.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(news) = best.filter(|best| *noted() != Some(*best)) else { return Ok(true) };
         let held = self.store.note(self.claim, news, Timestamp::now()).await?;
@@ -143,11 +143,11 @@ mod tests {
     use crate::jobs::{Cancellation, JobId, JobSettings, NewJob, Owner, open};
     use crate::metrics::Metrics;
 
-    /// A renewal is due after 20 s: what is heard within the patience was not heard by renewing.
+    /// A renewal is due after 20 s, so news within the test's patience did not come from one.
     const LEASE: Duration = Duration::from_secs(60);
     const PATIENCE: Duration = Duration::from_secs(15);
 
-    /// A store in which one job was claimed.
+    /// A store with one claimed job.
     struct Trial {
         store: Arc<dyn Store>,
         metrics: Arc<Metrics>,
@@ -179,7 +179,7 @@ mod tests {
             Self::at("sqlite::memory:".to_owned()).await
         }
 
-        /// The job is held while this is done.
+        /// Holds the job while this runs.
         async fn held_during(
             &self,
             incumbent: &mut watch::Receiver<Option<Incumbent>>,
@@ -198,14 +198,14 @@ mod tests {
             assert!(matches!(cancelled, Ok(Cancellation::Accepted(_))));
         }
 
-        /// Done once the store has this.
+        /// Done once the store has this incumbent.
         async fn keeps(&self, best: Incumbent) {
             while self.store.get(&Owner::anonymous(), self.claim.id).await.unwrap().unwrap().incumbent != Some(best) {
                 sleep(Duration::from_millis(1)).await;
             }
         }
 
-        /// How many calls of the store there were.
+        /// The number of calls of the store.
         fn calls(&self, operation: &str, outcome: &str) -> usize {
             let labels = format!("singulate_store_seconds_count{{operation=\"{operation}\",outcome=\"{outcome}\"}} ");
             self.metrics.text().lines().find_map(|line| line.strip_prefix(&labels)?.parse().ok()).unwrap_or_default()
@@ -233,13 +233,13 @@ mod tests {
                 planner.send(Some(best)).unwrap();
                 trial.keeps(best).await;
             }
-            // By the time that this is heard, all that came before has had its consequences.
+            // Once this is heard, everything before has taken effect.
             trial.cancel().await;
             trial.heard.notified().await;
         };
         trial.held_during(&mut incumbent, notes).await;
         assert_eq!(trial.calls("note", "done"), 4);
-        // The first look, and the look after the cancel.
+        // The first renewal, and the one after the cancel.
         assert!((1..=2).contains(&trial.calls("renew", "done")), "{}", trial.metrics.text());
     }
 
@@ -251,7 +251,7 @@ mod tests {
             planner.send(Some(cost(9))).unwrap();
             trial.keeps(cost(9)).await;
             planner.send(Some(cost(8))).unwrap();
-            // It has been seen by now and is not to be noted yet; then there is something else to do.
+            // By now it was seen but is not due to be stored; then other branches become ready.
             for _ in 0..10 {
                 tokio::task::yield_now().await;
             }

@@ -1,4 +1,4 @@
-//! Wakes whoever waits for a job to change, or for work.
+//! Wakes tasks that wait for a job to change, or for work.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -7,7 +7,7 @@ use tokio::sync::Notify;
 
 use super::job::JobId;
 
-/// Who waits for what.
+/// The waiting tasks.
 #[derive(Debug, Default)]
 pub struct Hints {
     watched: Arc<Watched>,
@@ -18,7 +18,7 @@ pub struct Hints {
     pub callbacks: Notify,
 }
 
-/// Per job who is woken, and how many they are.
+/// Per job its notifier and the number of its watchers.
 type Watched = Mutex<HashMap<JobId, (Arc<Notify>, usize)>>;
 
 /// Waits for one job.
@@ -30,17 +30,17 @@ pub struct Watcher {
 }
 
 impl Hints {
-    /// The clients that watch the job look at it again.
+    /// Wakes the clients that watch the job.
     pub fn changed(&self, id: JobId) {
         wake(&self.watched, id);
     }
 
-    /// The worker of the job asks whether it is still to be run: it was cancelled, or its lease has ended.
+    /// Wakes the worker of the job: it was cancelled, or its lease has ended.
     pub fn recalled(&self, id: JobId) {
         wake(&self.held, id);
     }
 
-    /// Everybody looks again: changes may have gone unheard.
+    /// Wakes everybody: changes may have been missed.
     pub fn all_changed(&self) {
         for list in [&self.watched, &self.held] {
             lock(list).values().for_each(|(notify, _)| notify.notify_waiters());
@@ -54,7 +54,7 @@ impl Hints {
         Watcher::new(&self.watched, id)
     }
 
-    /// Hear whether a job that runs here is still to be run. What its own worker writes is no reason to ask.
+    /// Watch for recalls of a job that runs here. Its own worker's writes don't wake it.
     pub fn hold(&self, id: JobId) -> Watcher {
         Watcher::new(&self.held, id)
     }
@@ -74,8 +74,8 @@ impl Watcher {
         Self { watched: Arc::clone(list), id, notify: Arc::clone(notify) }
     }
 
-    /// Done once there has been a reason to look at the job since this was called; a look at the job goes between the call
-    /// and the waiting.
+    /// Done once the job has changed since this call. Call it, read the job, then await it, so that no change is
+    /// missed.
     pub fn changed(&self) -> impl Future<Output = ()> + use<> {
         let mut notified = Box::pin(Arc::clone(&self.notify).notified_owned());
         notified.as_mut().enable();
@@ -95,7 +95,7 @@ impl Drop for Watcher {
     }
 }
 
-/// No invariant of what the lock guards can be broken by a panic.
+/// A panic can't break an invariant of the locked data.
 fn lock(watched: &Watched) -> MutexGuard<'_, HashMap<JobId, (Arc<Notify>, usize)>> {
     watched.lock().unwrap_or_else(PoisonError::into_inner)
 }

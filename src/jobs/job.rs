@@ -1,4 +1,4 @@
-//! What a job is.
+//! The data of a job.
 
 use core::fmt;
 use core::str::FromStr;
@@ -9,15 +9,15 @@ use super::timestamp::Timestamp;
 use crate::wire::RawJson;
 use singulate_planner::search::Incumbent;
 
-/// How often a job may be begun. Whatever ended three workers would end a fourth.
+/// The most attempts of a job. A job that has killed three workers would kill a fourth.
 pub const MAX_ATTEMPTS: u32 = 3;
 
-/// A job's name. Later jobs have greater ids, to the millisecond.
+/// A job's id. Ids are ordered by time, to the millisecond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JobId(Uuid);
 
 impl JobId {
-    /// A new one.
+    /// A new id.
     pub fn new() -> Self {
         Self(Uuid::now_v7())
     }
@@ -43,12 +43,12 @@ impl FromStr for JobId {
     }
 }
 
-/// Who handed a job in. Nobody sees another's jobs.
+/// The owner of a job. Owners don't see each other's jobs.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Owner(String);
 
 impl Owner {
-    /// Everybody, as long as there are no keys.
+    /// The only owner if there are no keys.
     pub fn anonymous() -> Self {
         Self("anonymous".to_owned())
     }
@@ -58,13 +58,13 @@ impl Owner {
         Self(name.into())
     }
 
-    /// The name.
+    /// The owner's name.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 }
 
-/// Where a job stands. The verdict is in the result, never here.
+/// The state of a job. The verdict is in the result, not here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum JobState {
     /// Waits for a worker.
@@ -73,11 +73,11 @@ pub enum JobState {
     Running,
     /// There is an answer, whatever its verdict.
     Succeeded,
-    /// There is none, and a problem says why.
+    /// There is no answer; the problem says why.
     Failed,
-    /// Its caller wanted no more of it; the best so far is kept.
+    /// Cancelled by its caller; the best so far is kept.
     Cancelled,
-    /// No worker had it before its time was over.
+    /// No worker claimed it before it expired.
     Expired,
 }
 
@@ -86,7 +86,7 @@ impl JobState {
     pub const ALL: [Self; 6] =
         [Self::Queued, Self::Running, Self::Succeeded, Self::Failed, Self::Cancelled, Self::Expired];
 
-    /// As it is written everywhere.
+    /// Its name on the wire and in the store.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Queued => "queued",
@@ -98,7 +98,7 @@ impl JobState {
         }
     }
 
-    /// True if nothing more will happen to the job.
+    /// True if the state is final.
     pub fn finished(self) -> bool {
         !matches!(self, Self::Queued | Self::Running)
     }
@@ -112,16 +112,16 @@ impl FromStr for JobState {
     }
 }
 
-/// What somebody hands in, checked.
+/// A validated submission.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NewJob {
-    /// Its name.
+    /// Its id.
     pub id: JobId,
-    /// Who hands it in.
+    /// Its owner.
     pub owner: Owner,
-    /// The caller's `Idempotency-Key` and which job of its request this is, from 0.
+    /// The caller's `Idempotency-Key` and the job's position in the request, from 0.
     pub key: Option<(String, u32)>,
-    /// The digest of the whole request, which a repeated key must repeat; hexadecimal.
+    /// The digest of the whole request, hexadecimal. A request with the same key must have the same one.
     pub request_sha256: String,
     /// The caller's name for the scene.
     pub scene_id: Option<String>,
@@ -129,18 +129,18 @@ pub struct NewJob {
     pub scene_sha256: String,
     /// The planning request as JSON.
     pub body: Vec<u8>,
-    /// Greater goes first.
+    /// Jobs of greater priority go first.
     pub priority: i64,
-    /// Who is told of its end.
+    /// The receiver of the callback.
     pub callback_url: Option<String>,
 }
 
-/// A job as it stands.
+/// A job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
-    /// Its name.
+    /// Its id.
     pub id: JobId,
-    /// Where it stands.
+    /// Its state.
     pub state: JobState,
     /// The caller's name for the scene.
     pub scene_id: Option<String>,
@@ -152,13 +152,13 @@ pub struct Job {
     pub started_at: Option<Timestamp>,
     /// When it ended.
     pub finished_at: Option<Timestamp>,
-    /// When it ends unless it has begun by then; once it has ended, when it is forgotten.
+    /// When it expires if it has not begun; once it has ended, when it is deleted.
     pub expires_at: Timestamp,
-    /// How often a worker began.
+    /// The number of attempts.
     pub attempts: u32,
-    /// How many jobs are to be taken before it and itself; only while it is queued.
+    /// Its place in the queue, from 1; only while it is queued.
     pub queue_position: Option<u64>,
-    /// The best so far.
+    /// The incumbent.
     pub incumbent: Option<Incumbent>,
     /// The answer as JSON.
     pub result: Option<RawJson>,
@@ -166,22 +166,22 @@ pub struct Job {
     pub problem: Option<RawJson>,
     /// The version of the service that ended it.
     pub version: Option<String>,
-    /// All that has happened, first things first. The event's number is its place in the list, from 1.
+    /// All events, oldest first. An event's number is its position, from 1.
     pub events: Vec<Event>,
 }
 
-/// What happened to a job.
+/// An event of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Event {
-    /// What.
+    /// Its kind.
     pub kind: EventKind,
-    /// When.
+    /// Its time.
     pub at: Timestamp,
-    /// The attempts at that time.
+    /// The number of attempts at that time.
     pub attempts: u32,
-    /// The best by that time.
+    /// The incumbent at that time.
     pub incumbent: Option<Incumbent>,
-    /// How many jobs were to be taken before it and itself; only where it was queued.
+    /// Its place in the queue, from 1; only where it was queued.
     pub queue_position: Option<u64>,
 }
 
@@ -192,14 +192,14 @@ pub enum EventKind {
     Queued,
     /// A worker began.
     Running,
-    /// A better set or a better bound is known.
+    /// A better incumbent is known.
     Incumbent,
-    /// It ended, whatever way.
+    /// It ended, in any final state.
     Finished,
 }
 
 impl EventKind {
-    /// As it is written everywhere.
+    /// Its name on the wire.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Queued => "queued",

@@ -1,7 +1,7 @@
-//! Jobs that are never lost: what was accepted is on disk, runs on whatever server has room, and ends once.
+//! Durable jobs: an accepted job is on disk, runs on any server that has room, and ends once.
 //!
-//! A [`Store`], which [`open`] gives, keeps them; a runner claims them, one lease at a time, and plans; whoever watches a
-//! job is woken by [`Hints`] and reads it from the store. Time comes in as an argument everywhere below the runner.
+//! A [`Store`], made by [`open`], keeps them. A runner claims them under leases and plans. Watchers are woken by
+//! [`Hints`] and read the job from the store. Below the runner, time is an argument.
 
 mod body;
 mod callback;

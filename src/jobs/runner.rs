@@ -1,4 +1,4 @@
-//! Claims jobs as long as there is room for them, and sees each to its end.
+//! Claims jobs while there is room, and runs each to its end.
 
 use core::mem;
 use core::time::Duration;
@@ -25,7 +25,7 @@ use crate::metrics::{Ended, Metrics, Queue};
 use crate::wire::RequestLimits;
 use crate::workers::{Draining, Pool, Recall};
 
-/// How long to wait for a hint before looking for work all the same: another server's hint may be lost.
+/// The poll interval for queued jobs: hints of other servers may be lost.
 const LOOK_AGAIN: Duration = Duration::from_millis(500);
 /// The workers for jobs of one server.
 pub struct Runner {
@@ -41,7 +41,7 @@ pub struct Runner {
 /// A job that runs here.
 struct Running {
     recall: Recall,
-    /// True once its caller wants no more than the best so far.
+    /// True once its caller has cancelled it.
     cancelled: Arc<AtomicBool>,
 }
 
@@ -56,7 +56,7 @@ impl Runner {
     /// Starts the threads; they idle until [`run`](Self::run).
     ///
     /// # Errors
-    /// If the system gives no thread.
+    /// If a thread can't be started.
     pub fn new(
         store: Arc<dyn Store>,
         metrics: Arc<Metrics>,
@@ -67,7 +67,7 @@ impl Runner {
         let threads = settings.threads.max(1);
         Ok(Self {
             store,
-            // A thread may need a moment to become idle after its job has ended.
+            // A thread may need a moment to become idle after its job.
             pool: Pool::new(threads, threads)?,
             tools: Tools { engine, limits, metrics: Arc::clone(&metrics) },
             lease: settings.lease,
@@ -77,7 +77,7 @@ impl Runner {
         })
     }
 
-    /// Take jobs until `draining`; see those that run to their end, but hand back what still runs at `over`.
+    /// Claims jobs until `draining`; lets those that run end, and hands back those that still run at `over`.
     pub async fn run(self: Arc<Self>, draining: Draining, over: CancellationToken) {
         let tasks = TaskTracker::new();
         tasks.spawn(sweep(Arc::clone(&self.store), Arc::clone(&self.metrics), self.lease, draining.clone()));
@@ -107,17 +107,17 @@ impl Runner {
         tasks.wait().await;
     }
 
-    /// True if every thread lives.
+    /// True if every thread is alive.
     pub fn ready(&self) -> bool {
         self.pool.ready()
     }
 
-    /// The number of threads that plan for jobs.
+    /// The number of busy job threads.
     pub fn busy(&self) -> usize {
         self.pool.busy()
     }
 
-    /// A job whose caller cancelled it ends now, with the best so far, if it runs here.
+    /// Ends a cancelled job now, with the best so far, if it runs here.
     pub fn cancel(&self, id: JobId) {
         if let Some(running) = self.running().get(&id) {
             running.cancel();
@@ -126,7 +126,7 @@ impl Runner {
 
     async fn slot(&self) -> OwnedSemaphorePermit {
         loop {
-            // Nobody closes the semaphore.
+            // The semaphore is never closed.
             if let Ok(slot) = Arc::clone(&self.slots).acquire_owned().await {
                 return slot;
             }
@@ -147,7 +147,7 @@ impl Runner {
         self.running().insert(claim.id, Running { recall: work.recall(), cancelled: Arc::clone(&cancelled) });
         let ended = tokio::select! {
             end = work.end() => Some(end),
-            // Somebody else has the job now.
+            // The lease is lost.
             () = held.keep(&mut incumbent, || self.cancel(claim.id)) => None,
             () = over.cancelled() => {
                 held.hand_back().await;
@@ -171,7 +171,7 @@ impl Runner {
     }
 
     fn running(&self) -> MutexGuard<'_, HashMap<JobId, Running>> {
-        // No invariant of the map can be broken by a panic.
+        // A panic can't break an invariant of the map.
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,6 +1,6 @@
-//! What keeps jobs has to promise.
+//! The contract of a job store.
 //!
-//! States change as in this table and no other way; each change is one transaction, on disk before its call returns.
+//! States change only as in this table. Each change is one transaction, on disk before its call returns.
 //!
 //! | from | to | by |
 //! | --- | --- | --- |
@@ -14,8 +14,8 @@
 //! | running | failed, cancelled | `sweep`, once the lease of the third attempt has passed; of one that `cancel` came before |
 //! | finished | - | `forget`; `sweep`, once `expires_at` has passed |
 //!
-//! A fence is a number that grows with each claim of a job. A worker that lost its lease holds an old one, and nothing
-//! that it says counts any more: no job ends twice.
+//! A fence is a number that grows with each claim of a job. A worker that lost its lease holds an old one, and its
+//! calls no longer have an effect: no job ends twice.
 
 use core::time::Duration;
 
@@ -27,22 +27,22 @@ use super::job::{Job, JobId, JobState, NewJob, Owner};
 use super::timestamp::{Timestamp, WallClock};
 use singulate_planner::search::Incumbent;
 
-/// The most events of incumbents of one job; what comes later still is the job's `incumbent`.
+/// The most incumbent events of one job; later incumbents are only stored in `incumbent`.
 pub const MAX_INCUMBENT_EVENTS: usize = 100;
 
-/// The store could not be asked, or not answer. What was to be changed has mostly not been: who waits too long gives up, and
-/// it is rolled back. But it may have been, if the commit itself was under way.
+/// The store failed or timed out. In most cases nothing has changed, since an abandoned transaction is rolled back. But
+/// if the commit was under way, it may have taken effect.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the store of jobs: {0}")]
 pub struct StoreError(pub String);
 
-/// Why jobs were not accepted. None of them was.
+/// Why a submission failed. No job was accepted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SubmitError {
-    /// As many jobs wait as may.
+    /// The queue is full.
     #[error("the queue of jobs is full")]
     Full,
-    /// The idempotency key came with another request before.
+    /// The idempotency key belongs to a different request.
     #[error("the idempotency key belongs to another request")]
     KeyReused,
     /// The store failed.
@@ -53,7 +53,7 @@ pub enum SubmitError {
 /// The right to run a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Claim {
-    /// Which job.
+    /// The job.
     pub id: JobId,
     /// Grows with each claim of the job.
     pub fence: i64,
@@ -62,30 +62,30 @@ pub struct Claim {
 /// A job for a worker.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claimed {
-    /// The right to it.
+    /// The claim.
     pub claim: Claim,
-    /// Who handed it in.
+    /// The owner.
     pub owner: Owner,
     /// The planning request as JSON.
     pub body: Vec<u8>,
-    /// Which attempt this is, from 1.
+    /// The number of the attempt, from 1.
     pub attempt: u32,
     /// When it was accepted.
     pub created_at: Timestamp,
 }
 
-/// What became of a lease.
+/// The outcome of a renewal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Renewal {
-    /// It is longer now.
+    /// The lease was renewed.
     Held,
-    /// It is longer now, and the caller wants no more than the best so far.
+    /// The lease was renewed, and the job is cancelled: finish with the best so far.
     Cancelled,
-    /// Somebody else has the job, or nobody.
+    /// The lease is lost.
     Lost,
 }
 
-/// What became of a wish to cancel.
+/// The outcome of a cancellation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Cancellation {
     /// There is no such job.
@@ -96,25 +96,25 @@ pub enum Cancellation {
     Accepted(Box<Job>),
 }
 
-/// What became of a wish to forget.
+/// The outcome of a removal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Removal {
     /// There is no such job.
     Unknown,
     /// It has not ended.
     Unfinished,
-    /// It is forgotten, and so is its idempotency key.
+    /// It is deleted, and so is its idempotency key.
     Forgotten,
 }
 
-/// Which jobs to list, the latest first, without their results.
+/// A page of the list of jobs, the latest first, without their results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Page {
-    /// Only those in this state.
+    /// Only jobs in this state.
     pub state: Option<JobState>,
-    /// Only those before this one.
+    /// Only jobs before this one.
     pub before: Option<JobId>,
-    /// At most so many.
+    /// The most jobs.
     pub limit: usize,
 }
 
@@ -123,33 +123,33 @@ pub struct Page {
 pub struct Callback {
     /// The ended job.
     pub job: Job,
-    /// Who is told.
+    /// The receiver.
     pub url: String,
-    /// Which try this is, from 1.
+    /// The number of the try, from 1.
     pub attempt: u32,
 }
 
-/// What became of a try to deliver a callback.
+/// The outcome of a delivery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Delivery {
-    /// It arrived, or never will: no more tries.
+    /// Delivered or given up: no more tries.
     Over,
-    /// Try again then.
+    /// Try again at this time.
     Again(Timestamp),
 }
 
-/// What a sweep has changed.
+/// The changes of a sweep.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Swept {
     /// Lost by their workers and queued again.
     pub requeued: Vec<JobId>,
-    /// Ended three workers.
+    /// Ended after losing the last allowed worker.
     pub poisoned: Vec<JobId>,
     /// Lost by their workers after they were cancelled.
     pub cancelled: Vec<JobId>,
-    /// Waited too long.
+    /// Expired in the queue.
     pub expired: Vec<JobId>,
-    /// Forgotten.
+    /// The number of jobs deleted.
     pub forgotten: u64,
 }
 
@@ -162,17 +162,17 @@ pub struct Counts {
     pub running: u64,
 }
 
-/// Keeps jobs. Every call is one transaction, but for `sweep`, which is one a batch; `now` is the caller's time.
+/// Stores jobs. Every call is one transaction, except `sweep`: one per batch. `now` is the caller's time.
 #[async_trait]
 pub trait Store: Send + Sync + 'static {
-    /// Accept all jobs of one request, or none. Where the first one's key is known with the same digest, they are the jobs
-    /// that were accepted then.
+    /// Accept all jobs of one request, or none. If the key of the first job is known with the same digest, returns the
+    /// jobs accepted then.
     ///
     /// # Errors
     /// [`SubmitError`].
     async fn submit(&self, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, SubmitError>;
 
-    /// A job of the owner's.
+    /// A job of the owner.
     ///
     /// # Errors
     /// [`StoreError`].
@@ -184,87 +184,87 @@ pub trait Store: Send + Sync + 'static {
     /// [`StoreError`].
     async fn list(&self, owner: &Owner, page: Page) -> Result<Vec<Job>, StoreError>;
 
-    /// Cancel a job: a queued one at once, a running one once its worker knows.
+    /// Cancel a job: a queued one at once, a running one once its worker has noticed.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn cancel(&self, owner: &Owner, id: JobId, now: Timestamp) -> Result<Cancellation, StoreError>;
 
-    /// Forget a job that has ended.
+    /// Delete an ended job.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn forget(&self, owner: &Owner, id: JobId) -> Result<Removal, StoreError>;
 
-    /// Take the next job: the greatest priority first, then owners in turn, then the earliest.
+    /// Claim the next job: greatest priority first, then owners in turn, then the earliest.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn claim(&self, clock: &WallClock) -> Result<Option<Claimed>, StoreError>;
 
-    /// Make the lease end a whole lease after now.
+    /// Renew the lease: it ends a whole lease from now.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn renew(&self, claim: Claim, clock: &WallClock) -> Result<Renewal, StoreError>;
 
-    /// Keep the best so far: the least cost and the greatest bound of all that was noted. False if the claim is lost.
+    /// Store the incumbent: the least cost and the greatest bound noted so far. False if the claim is lost.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn note(&self, claim: Claim, incumbent: Incumbent, now: Timestamp) -> Result<bool, StoreError>;
 
-    /// End the job. False if the claim is lost; then nothing changes. True also where this same end was kept before, so
-    /// that a call whose answer was lost can be repeated.
+    /// End the job. False if the claim is lost; then nothing changes. Idempotent: true also if this same end was stored
+    /// before, so that a call whose answer was lost can be repeated.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError>;
 
-    /// Queue the job again, as if it had not been claimed, in the place that it had. False if the claim is lost.
+    /// Queue the job again at its old place, as if it had not been claimed. False if the claim is lost.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError>;
 
-    /// See to what time has brought: leases, jobs and callbacks that are over.
+    /// Handle expiry: leases, jobs and callbacks.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn sweep(&self, now: Timestamp) -> Result<Swept, StoreError>;
 
-    /// Take a callback that is due. Nobody else gets it before `lease` has passed.
+    /// Take a due callback under a lease.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn take_callback(&self, lease: Duration, clock: &WallClock) -> Result<Option<Callback>, StoreError>;
 
-    /// What became of a callback's try.
+    /// Settle a try of a callback.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn settle_callback(&self, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), StoreError>;
 
-    /// How many jobs there are.
+    /// Count the jobs.
     ///
     /// # Errors
     /// [`StoreError`].
     async fn counts(&self) -> Result<Counts, StoreError>;
 
-    /// Does the store answer?
+    /// Check that the store answers.
     ///
     /// # Errors
     /// [`StoreError`] if not.
     async fn ping(&self) -> Result<(), StoreError>;
 
-    /// Be done with it: what is being written is ended, nothing more is accepted. Where the store is a file, all jobs are in
-    /// that one file then, unless another process has it open.
+    /// Close the store: running writes end, new ones are refused. If the store is a file, all jobs are then in that one
+    /// file, unless another process has it open.
     ///
     /// # Errors
-    /// [`StoreError`] if something is left open, or beside the file.
+    /// [`StoreError`] if something is left open, or the log remains beside the file.
     async fn close(&self) -> Result<(), StoreError>;
 
-    /// Who is woken when something changes, here and, as far as the store can tell, elsewhere. Only hints: whoever waits
-    /// for a change looks again now and then.
+    /// Wakes tasks when something changes, here and, if the store supports it, on other servers. Only hints: waiting
+    /// tasks must also poll.
     fn hints(&self) -> &Hints;
 }

@@ -1,21 +1,21 @@
-//! Moments as jobs know them.
+//! Time stamps of jobs.
 
 use core::fmt;
 use core::time::Duration;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Milliseconds since 1970 in UTC. Displayed as RFC 3339 writes it.
+/// Milliseconds since 1970 in UTC. Displayed in RFC 3339.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Timestamp(i64);
 
 impl Timestamp {
-    /// What the system's clock shows.
+    /// The system's time.
     pub fn now() -> Self {
         Self(0).after(SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default())
     }
 
-    /// So many milliseconds after 1970 began.
+    /// This many milliseconds after 1970 began.
     pub fn from_millis(millis: i64) -> Self {
         Self(millis)
     }
@@ -25,34 +25,34 @@ impl Timestamp {
         self.0
     }
 
-    /// So much later.
+    /// This much later.
     #[must_use]
     pub fn after(self, time: Duration) -> Self {
         Self(self.0.saturating_add(i64::try_from(time.as_millis()).unwrap_or(i64::MAX)))
     }
 
-    /// How long ago the other was; nothing where it is still to come.
+    /// The time since `earlier`; zero if that is in the future.
     pub fn since(self, earlier: Self) -> Duration {
         Duration::from_millis(u64::try_from(self.0.saturating_sub(earlier.0)).unwrap_or_default())
     }
 }
 
-/// A clock that a store reads when a lease begins. A call may have waited seconds for its turn by then.
+/// A clock that a store reads when a lease begins, since the call may have waited seconds before.
 #[derive(Clone)]
 pub struct WallClock(Arc<dyn Fn() -> Timestamp + Send + Sync>);
 
 impl WallClock {
-    /// The system's.
+    /// The system's clock.
     pub fn system() -> Self {
         Self::new(Timestamp::now)
     }
 
-    /// Shows what `now` says.
+    /// A clock that calls `now`.
     pub fn new(now: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
         Self(Arc::new(now))
     }
 
-    /// What it shows.
+    /// The clock's time.
     pub fn now(&self) -> Timestamp {
         (self.0)()
     }
@@ -64,14 +64,14 @@ impl fmt::Debug for WallClock {
     }
 }
 
-/// A clock that has stopped.
+/// A stopped clock.
 impl From<Timestamp> for WallClock {
     fn from(stopped: Timestamp) -> Self {
         Self::new(move || stopped)
     }
 }
 
-/// The last moment that RFC 3339 can write, the end of the year 9999.
+/// The last time in RFC 3339, the end of the year 9999.
 const LAST: u64 = 253_402_300_799_999;
 
 impl fmt::Display for Timestamp {

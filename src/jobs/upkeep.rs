@@ -1,5 +1,4 @@
-//! When a store is asked without a caller: again after it failed, and now and then to see to what time brings, which is
-//! leases, jobs and callbacks that are over.
+//! Pauses between retries of store calls, and the periodic sweep for expired leases, jobs and callbacks.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -12,7 +11,7 @@ use super::timestamp::Timestamp;
 use crate::metrics::{Ended, Metrics};
 use crate::workers::Draining;
 
-/// The first pause after a failure and the longest: soon enough after a hiccup, seldom enough for a store that is starting.
+/// The first and the longest pause after a failure: short for a hiccup, long enough for a store that is starting.
 const LEAST: Duration = Duration::from_millis(50);
 const GREATEST: Duration = Duration::from_secs(2);
 
@@ -27,7 +26,7 @@ impl Default for Pause {
 }
 
 impl Pause {
-    /// Wait; longer the next time.
+    /// Waits, and doubles the next pause.
     pub(super) async fn pass(&mut self) {
         let length = self.0;
         self.0 = (2 * length).min(GREATEST);
@@ -35,12 +34,12 @@ impl Pause {
     }
 }
 
-/// How often to sweep: four times a lease, so that a lost worker's job waits hardly longer than its lease; but not all the
-/// time, and not so seldom that an expired job is seen waiting.
+/// The sweep interval: a quarter of the lease, so that a lost worker's job waits hardly longer than its lease. The
+/// bounds avoid constant sweeping, and expired jobs that still show as queued.
 const OFTEN: Duration = Duration::from_millis(50);
 const SELDOM: Duration = Duration::from_secs(1);
 
-/// Sweep the store now and then until `draining`.
+/// Sweeps the store at intervals until `draining`.
 pub(super) async fn sweep(store: Arc<dyn Store>, metrics: Arc<Metrics>, lease: Duration, draining: Draining) {
     let mut due = interval((lease / 4).clamp(OFTEN, SELDOM));
     due.set_missed_tick_behavior(MissedTickBehavior::Delay);
@@ -52,7 +51,7 @@ pub(super) async fn sweep(store: Arc<dyn Store>, metrics: Arc<Metrics>, lease: D
     }
 }
 
-/// Log and count what the sweep has changed, job by job.
+/// Logs and counts the changes of a sweep, job by job.
 fn tell(swept: &Swept, metrics: &Metrics) {
     for job in &swept.requeued {
         tracing::warn!(%job, "job lost its worker and is queued again");

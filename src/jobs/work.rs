@@ -1,4 +1,4 @@
-//! One claimed job on its way through a worker: its plan, and its lines in the log.
+//! One claimed job in a worker: its plan, and its log lines.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,13 +16,13 @@ use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
 use singulate_planner::budget::Budget;
 use singulate_planner::search::{Incumbent, Progress};
 
-/// The store has seen to the turns of owners; a job that it gave is not to wait for another's.
+/// One owner for all jobs in the pool: the store already takes owners in turn, so a claimed job must not wait again.
 const WORKER: &str = "worker";
 
 /// The fence of a job's first claim.
 const FIRST: i64 = 1;
 
-/// What a worker needs besides the job.
+/// The worker's shared tools.
 #[derive(Clone)]
 pub(super) struct Tools {
     pub(super) engine: Engine,
@@ -30,7 +30,7 @@ pub(super) struct Tools {
     pub(super) metrics: Arc<Metrics>,
 }
 
-/// A job that a worker has.
+/// A job in a worker.
 pub(super) struct Work {
     pending: Pending<Concluded>,
     body: Arc<Vec<u8>>,
@@ -38,7 +38,7 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// Begin. The time limit counts from now; the best so far is told to `watcher`.
+    /// Starts planning. The time limit counts from now; incumbents go to `watcher`.
     ///
     /// # Errors
     /// [`Refused`] if every worker is busy.
@@ -64,7 +64,7 @@ impl Work {
         Ok(Self { pending, body, glance })
     }
 
-    /// The way to its early end.
+    /// A handle to end it early.
     pub(super) fn recall(&self) -> Recall {
         self.pending.recall()
     }
@@ -78,7 +78,7 @@ impl Work {
     pub(super) async fn end(self) -> Concluded {
         match self.pending.outcome().await {
             Outcome::Done(concluded) => concluded,
-            // Only a planner that forgets the time is not waited for; nothing of what it knows is at hand.
+            // Only a planner that ignores its time is abandoned; its best so far is not available.
             Outcome::TimedOut => {
                 AnswerBody::unread(&self.glance).map_or_else(Concluded::internal, |answer| (&answer).into())
             }
@@ -91,14 +91,14 @@ impl Work {
 }
 
 fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>, progress: Progress<'_>) -> Result<AnswerBody, Problem> {
-    // It was read before it was accepted; but that may have been another version, with other limits.
+    // The body was valid when accepted, but maybe by another version with other limits.
     let request = read_job(body, &tools.limits)?.plan;
     let answer = tools.engine.answer(&request, budget, progress)?;
     tools.metrics.planned(&answer);
     Ok(AnswerBody::new(&request, &answer))
 }
 
-/// One worker's lines about one job.
+/// The log lines of one worker about one job.
 #[derive(Debug)]
 pub(super) struct Lines {
     job: JobId,
@@ -108,7 +108,8 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// The worker begins. A job that was claimed before is resumed: its worker was lost, or handed it back, or never heard of the claim.
+    /// Logs the start. A job that was claimed before is resumed: its worker was lost, handed it back, or never received
+    /// the claim.
     pub(super) fn begin(claimed: &Claimed, scene_id: Option<String>) -> Self {
         let Claimed { claim: Claim { id: job, fence }, owner, attempt, created_at, .. } = claimed;
         let age_ms = milliseconds(Timestamp::now().since(*created_at));
@@ -117,7 +118,7 @@ impl Lines {
         Self { job: *job, owner: owner.clone(), scene_id, started: Instant::now() }
     }
 
-    /// The job has ended in this state, and that is kept.
+    /// Logs the end, once it is stored.
     pub(super) fn end(&self, state: Ended, concluded: &Concluded) {
         let Self { job, owner, scene_id, started } = self;
         let (owner, state, ms) = (owner.as_str(), state.as_str(), milliseconds(started.elapsed()));

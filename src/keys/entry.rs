@@ -1,4 +1,4 @@
-//! What the keys file says of one key.
+//! One entry of the keys file.
 
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
@@ -8,17 +8,17 @@ use super::scope::Scopes;
 
 /// The longest name, bytes: room for a cell or a person, none for a document.
 const MAX_NAME: usize = 64;
-/// Whose jobs those are that were handed in without a key.
+/// The owner of jobs submitted without a key.
 const RESERVED: &str = "anonymous";
-/// What each key of ours begins with, so that whoever finds one knows what it opens.
+/// The prefix of all our keys, so that a leaked key can be recognised.
 pub(super) const PREFIX: &str = "sgl_";
 
-/// The SHA-256 of a key's text. Never displayed. What a caller presents is compared by [`ConstantTimeEq`] alone.
+/// The SHA-256 of a key's text. Never displayed. Compare presented keys only by [`ConstantTimeEq`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct KeyDigest([u8; 32]);
 
 impl KeyDigest {
-    /// Of this text.
+    /// The digest of this text.
     pub(super) fn of(key: &[u8]) -> Self {
         Self(Sha256::digest(key).into())
     }
@@ -53,12 +53,12 @@ pub(super) struct KeyEntry {
 }
 
 impl KeyEntry {
-    /// True if it is the same key, as ever somebody's for the same.
+    /// True for the same key with the same owner and scopes.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         (&self.digest, &self.name, &self.scopes) == (&other.digest, &other.name, &other.scopes)
     }
 
-    /// As the keys file has it.
+    /// The entry as in the keys file.
     pub(super) fn text(&self) -> String {
         let Self { name, digest, scopes, rate } = self;
         let name = toml::Value::from(name.as_str());
@@ -66,10 +66,10 @@ impl KeyEntry {
     }
 }
 
-/// A name that may stand in logs and owns jobs.
+/// Checks a name, which appears in logs and owns jobs.
 ///
 /// # Errors
-/// What it may be; not what it is, for it may be a key in the wrong place.
+/// The rule that is broken, without the name: it may be a misplaced key.
 pub(super) fn check_name(name: &str) -> Result<(), String> {
     if !(1..=MAX_NAME).contains(&name.len()) || !name.bytes().all(|byte| byte.is_ascii_graphic()) {
         return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
@@ -83,7 +83,7 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// A text of a client's without what may be a key in the wrong place: of each only [`PREFIX`] is left.
+/// A client's text with each possible key shortened to [`PREFIX`].
 pub fn without_keys(text: &str) -> String {
     let (mut kept, mut rest) = (String::new(), text);
     while let Some((before, after)) = rest.split_once(PREFIX) {

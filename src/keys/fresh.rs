@@ -1,4 +1,4 @@
-//! A new key: its text for whoever is to call, its entry for the file.
+//! New keys: the text for the caller, the entry for the file.
 
 use std::fs::OpenOptions;
 use std::io::{self, Read, Write};
@@ -14,20 +14,20 @@ use super::rate::Rate;
 use super::read::read;
 use super::scope::Scopes;
 
-/// As many random bytes as the digest has: nobody guesses 256 bits.
+/// As many random bytes as in the digest: 256 bits can't be guessed.
 const RANDOM_BYTES: usize = 32;
 
-/// A key that was just made. Its text is nowhere else.
+/// A new key. Its text is stored nowhere else.
 pub struct FreshKey {
     text: String,
     entry: KeyEntry,
 }
 
 impl FreshKey {
-    /// Out of the system's randomness.
+    /// A key from the system's random bytes.
     ///
     /// # Errors
-    /// If the name can't be one, or the system gives no random bytes.
+    /// If the name is invalid, or the system gives no random bytes.
     pub fn new(name: &str, scopes: Scopes, rate: Rate) -> Result<Self, String> {
         check_name(name)?;
         let mut bytes = [0; RANDOM_BYTES];
@@ -37,21 +37,21 @@ impl FreshKey {
         Ok(Self { text, entry: KeyEntry { name: name.to_owned(), digest, scopes, rate } })
     }
 
-    /// What the caller sends.
+    /// The text that the caller sends.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// What the keys file holds, as TOML.
+    /// The entry of the keys file, as TOML.
     pub fn entry(&self) -> String {
         self.entry.text()
     }
 }
 
-/// Append the key's entry to the file; one that is not there is made, for its owner alone.
+/// Append the key's entry to the file. A missing file is created, readable only by its owner.
 ///
 /// # Errors
-/// If the file can't be read or written, or would be faulty.
+/// If the file can't be read or written, or would become invalid.
 pub fn append(key: &FreshKey, path: &Path) -> Result<(), KeysError> {
     let failed = |error: io::Error| KeysError::file(path, &error);
     let mut options = OpenOptions::new();
@@ -65,6 +65,6 @@ pub fn append(key: &FreshKey, path: &Path) -> Result<(), KeysError> {
     };
     let added = format!("{gap}{}", key.entry());
     read(&[&before, added.as_bytes()].concat()).map_err(|faults| KeysError::faults(path, &faults))?;
-    // In one piece, for the service may read it meanwhile.
+    // In one write, since the service may read it meanwhile.
     file.write_all(added.as_bytes()).and_then(|()| file.sync_all()).map_err(failed)
 }

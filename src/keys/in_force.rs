@@ -1,4 +1,4 @@
-//! The keys that hold now.
+//! The keys in force.
 
 use core::fmt;
 use core::time::Duration;
@@ -19,10 +19,10 @@ use super::read::read;
 use super::scope::Scope;
 use crate::watched_files::WatchedFiles;
 
-/// No key is so long, bytes; what is longer is not even digested.
+/// The longest presented key, bytes. Longer ones are not even hashed.
 const MAX_KEY: usize = 256;
 
-/// All that is wrong with a keys file, one line each.
+/// All faults of a keys file, one line each.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.join("\n"))]
 pub struct KeysError(pub Vec<String>);
@@ -37,22 +37,22 @@ impl KeysError {
     }
 }
 
-/// The keys of a file, as it stands or last stood in order.
+/// The keys of a file, from its last valid version.
 pub struct Keys {
     path: PathBuf,
     in_force: RwLock<Arc<[Arc<Held>]>>,
     files: Mutex<WatchedFiles>,
 }
 
-/// A key in force, with what it has used.
+/// A key in force, with its usage.
 struct Held {
     entry: KeyEntry,
     spent: Arc<Spent>,
-    /// Cancelled once the key is gone, or is another's or for something else.
+    /// Cancelled once the key is removed, or its owner or scopes change.
     gone: CancellationToken,
 }
 
-/// A key that somebody came with.
+/// A presented key that is in force.
 #[derive(Clone)]
 pub struct Found(Arc<Held>);
 
@@ -66,7 +66,7 @@ impl Keys {
     /// Read a keys file.
     ///
     /// # Errors
-    /// If it can't be read, or everything that is wrong in it.
+    /// If it can't be read, or all its faults.
     pub fn open(path: &Path) -> Result<Self, KeysError> {
         let files = WatchedFiles::read(vec![path.to_owned()]).map_err(|error| KeysError(vec![error.to_string()]))?;
         let entries = read(content(&files)).map_err(|faults| KeysError::faults(path, &faults))?;
@@ -74,14 +74,14 @@ impl Keys {
         Ok(Self { path: path.to_owned(), in_force, files: Mutex::new(files) })
     }
 
-    /// The key with this text. Every key is looked at in the same time, so that time tells nothing of any.
+    /// The key with this text, in constant time: all keys are compared, so timing reveals none of them.
     pub fn find(&self, text: &[u8]) -> Option<Found> {
         if text.len() > MAX_KEY {
             return None;
         }
         let presented = KeyDigest::of(text);
         let in_force = self.in_force();
-        // One past the last stands for none.
+        // The index past the end means none.
         let mut at = in_force.len() as u64;
         for (position, held) in (0..).zip(in_force.iter()) {
             at.conditional_assign(&position, held.entry.digest.ct_eq(&presented));
@@ -89,13 +89,13 @@ impl Keys {
         in_force.get(usize::try_from(at).ok()?).map(|held| Found(Arc::clone(held)))
     }
 
-    /// Take over what the file says whenever that changes; goes on for ever.
+    /// Reload the keys whenever the file changes; never ends.
     pub async fn watch(&self) {
         let mut files = self.files.lock().await;
         loop {
             files.changed().await;
             let text = content(&files).to_vec();
-            // A thousand keys take a while to read: not on a thread that serves.
+            // A thousand keys take a while to read, so not on a thread that serves.
             let read = spawn_blocking(move || read(&text)).await;
             let read = read.unwrap_or_else(|_| Err(vec!["the file could not be read".to_owned()]));
             if let Err(faults) = self.take_over(read) {
@@ -105,11 +105,11 @@ impl Keys {
     }
 
     fn in_force(&self) -> Arc<[Arc<Held>]> {
-        // A list is replaced as a whole, so no panic leaves half of one.
+        // The list is replaced as a whole, so a panic can't leave half of one.
         Arc::clone(&self.in_force.read().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// From now on the keys that were read hold. What was used of a rate stays used.
+    /// Puts the new keys in force. Their usage is carried over.
     fn take_over(&self, read: Result<Vec<KeyEntry>, Vec<String>>) -> Result<(), KeysError> {
         let entries = read.map_err(|faults| KeysError::faults(&self.path, &faults))?;
         let before = self.in_force();
@@ -134,32 +134,32 @@ fn content(files: &WatchedFiles) -> &[u8] {
 }
 
 impl Held {
-    /// A key that nobody has used yet.
+    /// A key without usage.
     fn unused(entry: KeyEntry) -> Arc<Self> {
         Arc::new(Self { entry, spent: Arc::default(), gone: CancellationToken::new() })
     }
 }
 
 impl Found {
-    /// Whose it is.
+    /// The owner's name.
     pub fn name(&self) -> &str {
         &self.0.entry.name
     }
 
-    /// True if it is for one of these.
+    /// True if it has one of these scopes.
     pub fn is_for(&self, scopes: &[Scope]) -> bool {
         self.0.entry.scopes.any_of(scopes)
     }
 
-    /// Use it once.
+    /// Count one request.
     ///
     /// # Errors
-    /// If it was used too often: when to come again.
+    /// If the rate is exceeded: the time until the next request.
     pub fn spend(&self, now: Instant) -> Result<(), Duration> {
         self.0.spent.take(self.0.entry.rate, now)
     }
 
-    /// Cancelled once the key no longer holds as it did.
+    /// Cancelled once the key is removed or changed.
     pub fn gone(&self) -> &CancellationToken {
         &self.0.gone
     }
@@ -174,7 +174,7 @@ mod tests {
         FreshKey::new(name, scopes.parse().unwrap(), rate.parse().unwrap()).unwrap()
     }
 
-    /// A file of its own for each test.
+    /// A separate file for each test.
     fn keys(name: &str, made: &[&FreshKey]) -> Keys {
         let path = std::env::temp_dir().join(format!("singulate-keys-{}-{name}", std::process::id()));
         made.iter().for_each(|key| append(key, &path).unwrap());

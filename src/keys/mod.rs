@@ -1,6 +1,7 @@
-//! API keys: who may call, what for, and how often.
+//! API keys: callers, scopes and rates.
 //!
-//! The keys file knows only digests: whoever reads it can't call. [`Keys`] are those in force, [`FreshKey`] a new one.
+//! The keys file holds only digests, so reading it gives no access. [`Keys`] are those in force, [`FreshKey`] a new
+//! one.
 
 mod entry;
 mod fresh;

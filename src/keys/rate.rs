@@ -1,4 +1,4 @@
-//! How often a key may be used. A bucket of a few lines: a crate for it would bring a dozen others for one comparison.
+//! Rate limits of keys. A token bucket of a few lines: a crate would bring a dozen dependencies for one comparison.
 
 use core::fmt;
 use core::str::FromStr;
@@ -6,18 +6,18 @@ use core::time::Duration;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// Once in some 17 minutes, and more than any machine answers: what lies outside is a typing error.
+/// From one request in some 17 minutes to more than any machine answers; anything else is a typing error.
 const RANGE: core::ops::RangeInclusive<f64> = 0.001..=1e6;
 
-/// Requests per second. One second's worth, and one at least, may come at once.
+/// Requests per second. The burst is one second's worth, at least one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rate(f64);
 
 impl Rate {
-    /// This many a second.
+    /// This many per second.
     ///
     /// # Errors
-    /// What it may be.
+    /// If it is out of range: the range.
     pub fn new(per_second: f64) -> Result<Self, String> {
         if RANGE.contains(&per_second) {
             return Ok(Self(per_second));
@@ -51,19 +51,19 @@ impl fmt::Display for Rate {
     }
 }
 
-/// What has been used of a rate: the moment at which the bucket is full again. A rate may change meanwhile.
+/// The usage of a rate: the time at which the bucket is full again. The rate may change meanwhile.
 #[derive(Debug, Default)]
 pub(super) struct Spent(Mutex<Option<Instant>>);
 
 impl Spent {
-    /// Use it once.
+    /// Count one request.
     ///
     /// # Errors
-    /// If it is used up: when to come again.
+    /// If the bucket is empty: the time until the next request.
     pub(super) fn take(&self, rate: Rate, now: Instant) -> Result<(), Duration> {
-        // No invariant of a moment can be broken by a panic.
+        // A panic can't break an invariant of a time.
         let mut full = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // By the rate of before the bucket may have taken longer to fill.
+        // At an earlier rate the bucket may have taken longer to fill.
         let owed = full.map_or(Duration::ZERO, |full| full.saturating_duration_since(now)).min(rate.whole());
         let room = rate.whole().saturating_sub(rate.pause());
         let taken = if owed > room { Err(owed - room) } else { Ok(rate.pause()) };

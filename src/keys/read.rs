@@ -1,4 +1,4 @@
-//! Reads a keys file. What is wrong is told with its line and never repeated: it may be a key in the wrong place.
+//! Reads a keys file. Faults name their line and never repeat its text: it may be a misplaced key.
 
 use std::collections::HashSet;
 
@@ -9,10 +9,10 @@ use super::entry::{KeyDigest, KeyEntry, check_name};
 use super::rate::Rate;
 use super::scope::Scopes;
 
-/// The most keys of a file. Each request is compared with all of them, which takes some 60 µs for so many.
+/// The most keys in a file. Each request is compared with all of them, some 60 µs for this many.
 const MAX_KEYS: usize = 1000;
 
-/// The most faults that are told: whoever mends so many looks again.
+/// The most faults reported.
 const MAX_FAULTS: usize = 20;
 
 const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
@@ -20,7 +20,7 @@ const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
 /// The keys in the text.
 ///
 /// # Errors
-/// Everything that is wrong with it, each fault with its line.
+/// All faults, each with its line.
 pub(super) fn read(text: &[u8]) -> Result<Vec<KeyEntry>, Vec<String>> {
     let text = str::from_utf8(text).map_err(|_| vec!["not UTF-8".to_owned()])?;
     let mut reader = Reader { text, faults: Vec::new() };
@@ -48,7 +48,7 @@ impl Reader<'_> {
         let table = match DeTable::parse(self.text) {
             Ok(table) => table.into_inner(),
             Err(error) => {
-                // The message names what was expected, not what is there.
+                // The message names the expected value, not the actual one.
                 self.fault(error.span().map_or(0, |span| span.start), error.message());
                 return Vec::new();
             }

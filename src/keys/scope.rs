@@ -1,26 +1,26 @@
-//! What a key is for.
+//! The scopes of keys.
 
 use core::fmt;
 use core::str::FromStr;
 
-/// Something that a key may be for.
+/// A scope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// To plan now, to check plans, to survey.
+    /// Plan now, check plans, survey.
     Plan,
-    /// Everything about jobs.
+    /// All calls about jobs.
     Jobs,
-    /// To look at jobs.
+    /// Read jobs.
     ReadOnly,
-    /// What is measured.
+    /// Read metrics.
     Metrics,
 }
 
 impl Scope {
-    /// Every one.
+    /// Every scope.
     pub const ALL: [Self; 4] = [Self::Plan, Self::Jobs, Self::ReadOnly, Self::Metrics];
 
-    /// As it is written everywhere.
+    /// Its name in files and logs.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Plan => "plan",
@@ -31,15 +31,15 @@ impl Scope {
     }
 }
 
-/// All that a key is for: one scope at least.
+/// The scopes of a key, at least one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Scopes(Vec<Scope>);
 
 impl Scopes {
-    /// What these words name.
+    /// The scopes with these names.
     ///
     /// # Errors
-    /// What is wrong with them; their own text is not repeated, for it may be a key in the wrong place.
+    /// The fault, without the names: one may be a misplaced key.
     pub fn read<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Self, String> {
         let read = |word: &str| Scope::ALL.into_iter().find(|scope| scope.as_str() == word);
         match words.into_iter().map(read).collect::<Option<Vec<Scope>>>() {
@@ -51,7 +51,7 @@ impl Scopes {
         }
     }
 
-    /// True if one of these is among them.
+    /// True if it has one of these scopes.
     pub fn any_of(&self, wanted: &[Scope]) -> bool {
         self.0.iter().any(|scope| wanted.contains(scope))
     }
@@ -66,7 +66,7 @@ impl FromStr for Scopes {
 }
 
 impl fmt::Display for Scopes {
-    /// As the keys file has it: quoted, in brackets.
+    /// As in the keys file: quoted, in brackets.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words: Vec<String> = self.0.iter().map(|scope| format!("\"{}\"", scope.as_str())).collect();
         write!(f, "[{}]", words.join(", "))

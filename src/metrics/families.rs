@@ -1,4 +1,4 @@
-//! The families: names, help, labels.
+//! The metric families: names, help, labels.
 
 use std::borrow::Cow;
 
@@ -11,10 +11,10 @@ use prometheus_client::registry::{Metric, Registry, Unit};
 
 use super::buckets;
 
-/// What [`super::Metrics::text`] is.
+/// The media type of [`super::Metrics::text`].
 pub const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
-/// The labels of a family that has one: its name and the word.
+/// The labels of a family with one label: name and value.
 pub(super) type One = [(&'static str, &'static str); 1];
 
 /// The labels of a request.
@@ -23,7 +23,7 @@ pub(super) struct Request {
     /// The route's template, such as `/v1/jobs/{id}`.
     pub(super) route: String,
     pub(super) method: &'static str,
-    /// The status code, or that the client did not wait for one.
+    /// The status code, or a word for a client that hung up.
     pub(super) status: Cow<'static, str>,
 }
 
@@ -64,7 +64,7 @@ impl Families {
         }
     }
 
-    /// All of them under their names. A counter's name gets `_total`, a time's `_seconds`.
+    /// All families under their names. A counter's name gets `_total`, a time's `_seconds`.
     pub(super) fn registry(&self) -> Registry {
         let mut registry = Registry::with_prefix("singulate");
         time(&mut registry, "http_request", "From a request's head to its answer's", &self.requests);

@@ -1,6 +1,6 @@
-//! The words that labels may hold. All are known beforehand, so that the number of series is.
+//! Label values are closed enums, so the number of series is bounded.
 
-/// Names a closed list of words.
+/// Defines a closed list of label values.
 macro_rules! words {
     ($(#[$about:meta])* $name:ident { $($(#[$each:meta])* $variant:ident = $word:literal,)+ }) => {
         $(#[$about])*
@@ -10,10 +10,10 @@ macro_rules! words {
         }
 
         impl $name {
-            /// Every one.
+            /// Every value.
             pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
 
-            /// As it is written.
+            /// The value as text.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word,)+
@@ -24,7 +24,7 @@ macro_rules! words {
 }
 
 words! {
-    /// What waits for a thread.
+    /// The kind of work that waits for a thread.
     Queue {
         /// A request whose client waits for the answer.
         Plan = "plan",
@@ -34,7 +34,7 @@ words! {
 }
 
 words! {
-    /// Why a request was turned away, whatever it asked for.
+    /// Why a request was refused.
     Refusal {
         /// Every thread is busy and the queue is full.
         Full = "full",
@@ -44,13 +44,13 @@ words! {
         NotReady = "not_ready",
         /// The store of jobs does not answer.
         StoreUnavailable = "store_unavailable",
-        /// As many wait, or watch, as may.
+        /// The limit on concurrent requests of this kind is reached.
         Limit = "limit",
-        /// No key or client certificate, or one that does not hold.
+        /// No valid key or client certificate.
         Unauthorized = "unauthorized",
-        /// A key for something else.
+        /// The key lacks the scope.
         Forbidden = "forbidden",
-        /// A key that was used too often.
+        /// The key's rate is exceeded.
         RateExceeded = "rate_exceeded",
     }
 }
@@ -58,21 +58,21 @@ words! {
 words! {
     /// How a job ended.
     Ended {
-        /// There is an answer, whatever its verdict.
+        /// With an answer, whatever its verdict.
         Succeeded = "succeeded",
-        /// There is none.
+        /// With a problem.
         Failed = "failed",
-        /// Its caller wanted no more of it.
+        /// Cancelled by its caller.
         Cancelled = "cancelled",
-        /// No worker had it before its time was over.
+        /// Not claimed before it expired.
         Expired = "expired",
     }
 }
 
 words! {
-    /// What became of a call of the store.
+    /// The outcome of a store call.
     StoreOutcome {
-        /// It was done, or refused for a reason of the caller's.
+        /// Done, or refused because of the request.
         Done = "done",
         /// The store failed.
         Failed = "failed",
@@ -80,20 +80,20 @@ words! {
 }
 
 words! {
-    /// What became of a try to deliver a callback.
+    /// The outcome of a delivery of a callback.
     CallbackOutcome {
-        /// It arrived.
+        /// Delivered.
         Delivered = "delivered",
-        /// It did not, and will be tried again.
+        /// Failed, and will be tried again.
         Again = "again",
-        /// It did not, and there are no more tries.
+        /// Failed, with no more tries.
         GivenUp = "given_up",
-        /// Its host is none that may be called.
+        /// The host may not be called.
         Forbidden = "forbidden",
     }
 }
 
-/// The method as a label. Clients may make up any.
+/// The method as a label. Clients may send any text as a method.
 pub(super) fn method(method: &str) -> &'static str {
     const KNOWN: [&str; 7] = ["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"];
     KNOWN.into_iter().find(|known| *known == method).unwrap_or("other")

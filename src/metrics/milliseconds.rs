@@ -1,8 +1,8 @@
-//! Durations as log lines have them.
+//! Durations in log lines.
 
 use core::time::Duration;
 
-/// In milliseconds with two decimals: nobody reads the rest.
+/// In milliseconds with two decimals.
 pub fn milliseconds(duration: Duration) -> f64 {
     (duration.as_secs_f64() * 1e5).round() / 100.0
 }

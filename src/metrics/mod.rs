@@ -1,8 +1,7 @@
-//! What is measured, for whoever watches the service: counts and times, never ids, owners or anything else of which there
-//! can be any number.
+//! Metrics: counts and times, never ids, owners or other labels of unbounded number.
 //!
-//! Each server has [`Metrics`] of its own, so that several in one process don't mix. Whatever does the work records here;
-//! `/metrics` writes it out.
+//! Each server has its own [`Metrics`], so that several in one process don't mix. The parts of the service record here;
+//! `/metrics` writes the text.
 
 mod buckets;
 mod families;

@@ -1,4 +1,4 @@
-//! Where everything is recorded, and written out.
+//! Records metrics and writes them as text.
 
 use core::time::Duration;
 use std::borrow::Cow;
@@ -11,14 +11,14 @@ use super::families::{Families, Request};
 use super::labels::{CallbackOutcome, Ended, Queue, Refusal, StoreOutcome, method};
 use singulate_planner::plan::Answer;
 
-/// What one server has measured.
+/// The metrics of one server.
 #[derive(Debug)]
 pub struct Metrics {
     families: Families,
     registry: Registry,
 }
 
-/// Counts as open for as long as it lives.
+/// Counts as open until it is dropped.
 #[derive(Debug)]
 pub struct Open(Gauge);
 
@@ -29,7 +29,7 @@ impl Drop for Open {
 }
 
 impl Default for Metrics {
-    /// Nothing has happened. Counters of a closed list begin at 0, so that the first event already is a change.
+    /// Starts all counters of closed lists at 0, so that the first event already shows as a change.
     fn default() -> Self {
         let families = Families::new();
         for refusal in Refusal::ALL {
@@ -47,24 +47,24 @@ impl Default for Metrics {
 }
 
 impl Metrics {
-    /// A request on this route, by its template, took so long; without a status its client had gone.
+    /// A request on this route template took this long; without a status its client had hung up.
     pub fn request(&self, route: &str, verb: &str, status: Option<u16>, took: Duration) {
         let status = status.map_or(Cow::Borrowed("hung_up"), |status| Cow::Owned(status.to_string()));
         let labels = Request { route: route.to_owned(), method: method(verb), status };
         self.families.requests.get_or_create(&labels).observe(took.as_secs_f64());
     }
 
-    /// A request was turned away.
+    /// A request was refused.
     pub fn refused(&self, refusal: Refusal) {
         self.families.refused.get_or_create(&[("reason", refusal.as_str())]).inc();
     }
 
-    /// Work came to its thread.
+    /// Queued work got its thread.
     pub fn waited(&self, queue: Queue, wait: Duration) {
         self.families.queue_wait.get_or_create(&[("kind", queue.as_str())]).observe(wait.as_secs_f64());
     }
 
-    /// Planning came to its end, by whatever verdict.
+    /// Planning has ended, with any verdict.
     pub fn planned(&self, answer: &Answer) {
         let phases = answer.statistics.phases();
         for (phase, took) in phases {
@@ -75,7 +75,7 @@ impl Metrics {
         self.families.planning.get_or_create(&labels).observe(whole.as_secs_f64());
     }
 
-    /// So many jobs wait and run.
+    /// This many jobs are queued and running.
     pub fn set_jobs(&self, queued: u64, running: u64) {
         for (state, count) in [("queued", queued), ("running", running)] {
             self.families.jobs.get_or_create(&[("state", state)]).set(i64::try_from(count).unwrap_or(i64::MAX));
@@ -87,12 +87,12 @@ impl Metrics {
         self.families.jobs_ended.get_or_create(&[("state", ended.as_str())]).inc();
     }
 
-    /// An attempt at a job began, its first one or a later one.
+    /// An attempt at a job began; the first has number 1.
     pub fn attempt(&self, number: u32) {
         self.families.attempts.observe(f64::from(number));
     }
 
-    /// A call of the store took so long. The operation is the store's method.
+    /// A store call took this long. The operation is the store's method.
     pub fn store(&self, operation: &'static str, outcome: StoreOutcome, took: Duration) {
         let labels = [("operation", operation), ("outcome", outcome.as_str())];
         self.families.store.get_or_create(&labels).observe(took.as_secs_f64());
@@ -113,13 +113,13 @@ impl Metrics {
         opened(&self.families.streams)
     }
 
-    /// So many threads of this queue compute.
+    /// This many threads of this queue are busy.
     pub fn set_busy(&self, queue: Queue, threads: usize) {
         let labels = [("kind", queue.as_str())];
         self.families.busy.get_or_create(&labels).set(i64::try_from(threads).unwrap_or(i64::MAX));
     }
 
-    /// All of it as OpenMetrics text.
+    /// All metrics as OpenMetrics text.
     pub fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string can't fail.

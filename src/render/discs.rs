@@ -1,4 +1,4 @@
-//! The table and the objects that stand where they stood.
+//! The table and the objects at their old places.
 
 use svg::node::element::{Group, Rectangle as Rect, Title};
 
@@ -49,7 +49,7 @@ fn one(scene: &Scene, index: ObjectIndex, roles: &Roles, view: &View) -> Group {
         .add(Title::new(label::clean(object.id())))
         .add(circle(object.disc(), view, paint).set("stroke-width", px(if target { 2.5 * stroke } else { stroke })));
     if target {
-        // Gold on red: the target is told apart within a lock too.
+        // Gold on red, so that the target stands out within a lock too.
         let line = if paint == paint::TARGET { paint.line } else { paint::TARGET.fill };
         group = group.add(inner_ring(&object.disc(), 0.88, view, line));
     }
@@ -64,18 +64,18 @@ fn inner_ring(disc: &Disc, share: f64, view: &View, line: &str) -> svg::node::el
     ring(view.point(disc.centre), view.length(disc.radius) * share, line).set("stroke-width", px(outline(disc, view)))
 }
 
-/// A stroke that a crumb among ten thousand can bear, px.
+/// A stroke thin enough for the smallest of ten thousand discs, px.
 pub(super) fn outline(disc: &Disc, view: &View) -> f64 {
     (view.length(disc.radius) * 0.06).min(1.5)
 }
 
-/// Write the id into the disc where it can be read.
+/// Write the id into the disc if it is readable.
 pub(super) fn named(group: Group, id: &str, disc: &Disc, paint: Paint, view: &View) -> Group {
     let radius = view.length(disc.radius);
     let Some((text, size)) = label::fit(id, (0.8 * radius).min(LARGEST_SIZE), 1.6 * radius) else { return group };
     let ink = if paint == paint::CORE { paint::PAPER } else { paint::INK };
     let text = label::centred(&text, size, view.point(disc.centre)).set("fill", ink);
-    // A halo keeps the letters apart from hatching.
+    // A halo separates the letters from the hatching.
     let halo = paint == paint::FIXED;
     group.add(if halo {
         text.set("stroke", paint::PAPER).set("stroke-width", px(size / 4.0)).set("paint-order", "stroke")

@@ -1,4 +1,4 @@
-//! The verdict in words.
+//! The verdict as text.
 
 use nalgebra::Point2;
 use svg::node::element::Group;
@@ -68,7 +68,7 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// What the headline leaves out: which objects.
+/// The objects, which the headline leaves out.
 fn detail(scene: &Scene, answer: &Answer) -> String {
     let ids = |objects: &[ObjectIndex]| {
         objects.iter().map(|&object| scene.object(object).id()).collect::<Vec<_>>().join(", ")
@@ -116,7 +116,7 @@ fn millimetres(metres: f64) -> f64 {
     (metres * 1e5).round() / 100.0
 }
 
-/// All of it for those who can't see the drawing.
+/// The whole text, for screen readers.
 pub(super) fn description(scene: &Scene, answer: &Answer) -> String {
     let detail = detail(scene, answer);
     let stop = if detail.is_empty() { "" } else { ". " };

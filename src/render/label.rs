@@ -1,15 +1,15 @@
-//! Text: what XML admits of it, and how much of it fits.
+//! Text: the characters that XML allows, cut to size.
 
 use nalgebra::Point2;
 use svg::node::element::Text;
 
 use super::paint::px;
 
-/// Smaller than this nobody reads it, px.
+/// The least readable size, px.
 pub(super) const LEAST_SIZE: f64 = 7.0;
-/// Larger than this it shouts, px.
+/// The largest size, px.
 pub(super) const LARGEST_SIZE: f64 = 20.0;
-/// A wide average of a character's width, as a share of the font size: sans-serif fonts differ.
+/// A generous average of a character's width, as a share of the font size, since sans-serif fonts differ.
 const CHARACTER_WIDTH: f64 = 0.6;
 
 /// The text without the characters that XML 1.0 forbids even when escaped, and on one line.
@@ -20,13 +20,13 @@ pub(super) fn clean(text: &str) -> String {
     text.chars().filter(admitted).map(one_line).collect()
 }
 
-/// How wide the text is about, px. Scripts outside of Latin are taken to be square.
+/// The approximate width of the text, px. Non-Latin scripts count as square.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(|c| if u32::from(c) < 0x250 { CHARACTER_WIDTH } else { 1.0 }).sum::<f64>() * size
 }
 
-/// The text and its size so that it is no wider than `room`, px: smaller first, then cut short. `None` where nothing
-/// readable fits.
+/// The text and its size for a width of `room`, px: made smaller first, then cut short. `None` if nothing readable
+/// fits.
 pub(super) fn fit(text: &str, largest: f64, room: f64) -> Option<(String, f64)> {
     let text = clean(text);
     let size = (room / width(&text, 1.0).max(CHARACTER_WIDTH)).min(largest);
@@ -43,14 +43,14 @@ pub(super) fn fit(text: &str, largest: f64, room: f64) -> Option<(String, f64)> 
         }
         short.push(c);
     }
-    // One letter and an ellipsis tell nobody anything.
+    // One letter and an ellipsis say nothing.
     (short.chars().count() >= 3).then(|| (short + "…", LEAST_SIZE))
 }
 
-/// Text with its middle at `at`.
+/// Text centred at `at`.
 pub(super) fn centred(text: &str, size: f64, at: Point2<f64>) -> Text {
-    // A baseline a third of the size below the middle centres digits and lower case alike; `dominant-baseline` is not
-    // understood everywhere.
+    // A baseline a third of the size below the middle centres digits and lower case alike; not every viewer supports
+    // `dominant-baseline`.
     line(text, size, Point2::new(at.x, at.y + 0.35 * size)).set("text-anchor", "middle")
 }
 

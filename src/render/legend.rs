@@ -1,4 +1,4 @@
-//! What the signs mean, and how long a metre is.
+//! The legend: symbols and the scale bar.
 
 use nalgebra::Point2;
 use svg::node::element::{Group, Line, Rectangle};
@@ -25,7 +25,7 @@ pub(super) struct Legend {
     pub(super) height: f64,
 }
 
-/// How a sign looks.
+/// The shape of a sign.
 #[derive(Debug, Clone, Copy)]
 enum Sign {
     Disc(Paint),
@@ -36,7 +36,7 @@ enum Sign {
     Hatch,
 }
 
-/// The scale bar, then the signs that occur, line by line.
+/// The scale bar, then the symbols that occur, line by line.
 pub(super) fn legend(scene: &Scene, answer: &Answer, view: &View) -> Legend {
     let mut drawing = Group::new().set("class", "legend").add(scale_bar(view));
     let (mut x, mut y) = (PADDING, view.height() + LINE);
@@ -108,7 +108,7 @@ fn drawn(sign: Sign, at: Point2<f64>) -> Group {
     }
 }
 
-/// A bar of a round length, about a fifth of the table.
+/// A bar of a round length, about a fifth of the table's width.
 fn scale_bar(view: &View) -> Group {
     let (x, _, width, _) = view.frame();
     let y = view.height() - 6.0;

@@ -1,6 +1,6 @@
 //! The scene and its answer as one drawing: SVG to scale, the same bytes for the same answer.
 //!
-//! Nothing is fetched: no fonts, no style sheets, no scripts. Whatever a caller wrote into an id is text here, never mark-up.
+//! It loads nothing: no fonts, no style sheets, no scripts. Ids are escaped as text, never mark-up.
 
 mod discs;
 mod headline;
@@ -22,8 +22,7 @@ use singulate_planner::plan::{Answer, Verdict};
 use singulate_planner::scene::Scene;
 use view::View;
 
-/// Draw the scene with what was found: the table, who stands where, and the numbered moves or the objects that lock
-/// each other.
+/// Draw the scene with its answer: the table, the objects, and the numbered moves or the objects that lock each other.
 pub fn svg(scene: &Scene, answer: &Answer) -> String {
     let view = View::new(scene, answer);
     let roles = Roles::new(scene, answer);
@@ -52,7 +51,7 @@ pub fn svg(scene: &Scene, answer: &Answer) -> String {
         .to_string()
 }
 
-/// The moves of a plan, the grasp of a target that is free at once, or the order in which objects would have to go.
+/// The moves of a plan, the grasp of a free target, or the order of the needed objects.
 fn steps(scene: &Scene, answer: &Answer, view: &View) -> Group {
     match &answer.verdict {
         Verdict::Relocate(plan) => moves::plan(scene, plan, view),

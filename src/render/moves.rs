@@ -10,7 +10,7 @@ use super::view::View;
 use singulate_planner::plan::{Grasp, Plan, Relocation, Unplanned};
 use singulate_planner::scene::{Disc, Scene, distance};
 
-/// Every relocation and the target's grasp. Arrows and numbers come last: they must not hide under a disc.
+/// Every relocation and the target's grasp. Arrows and numbers come last, so that no disc hides them.
 pub(super) fn plan(scene: &Scene, plan: &Plan, view: &View) -> Group {
     let steps = || plan.relocations.iter().enumerate();
     let places = steps().fold(Group::new().set("class", "relocations"), |group, (at, step)| {
@@ -28,7 +28,7 @@ pub(super) fn target_grasp(scene: &Scene, grasp: &Grasp, view: &View) -> Group {
     fingers(disc, grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP).set("class", "fingers target-grasp")
 }
 
-/// The order in which the objects of the best known derivation would have to go.
+/// The order of relocations in the best known derivation.
 pub(super) fn needed(scene: &Scene, known: &Unplanned, view: &View) -> Group {
     known.needed.iter().flatten().enumerate().fold(Group::new(), |group, (at, &object)| {
         let disc = scene.object(object).disc();
@@ -38,8 +38,8 @@ pub(super) fn needed(scene: &Scene, known: &Unplanned, view: &View) -> Group {
     })
 }
 
-/// One relocation: ghost and grasp at the old place, disc and release at the new one. A place that is left again later
-/// is dashed too.
+/// One relocation: ghost and grasp at the old place, disc and release at the new one. A new place is dashed too if the
+/// object leaves it again.
 fn places(scene: &Scene, number: usize, step: &Relocation, again: bool, view: &View) -> Group {
     let object = scene.object(step.object);
     let (old, new) = (object.disc().at(step.from), object.disc().at(step.to));
@@ -76,10 +76,10 @@ fn route(scene: &Scene, number: usize, step: &Relocation, view: &View) -> Group 
         return group.add(badge);
     }
     let along = (to - from) / length;
-    // Where the two places overlap the arrow would have no length: it runs from centre to centre instead.
+    // If the two places overlap, the arrow would have no length, so it runs from centre to centre.
     let inset = if length > 2.6 * radius { radius } else { 0.0 };
     let (start, tip) = (from + along * inset, to - along * inset);
-    // The number at both ends: where many arrows cross, nobody can follow one.
+    // The number at both ends: where many arrows cross, none can be followed.
     group.add(arrow(start, tip, size)).add(self::badge(number, start, paint::GRASP, 0.8 * size)).add(badge)
 }
 
@@ -113,7 +113,7 @@ pub(super) fn badge(number: usize, at: Point2<f64>, paint: Paint, radius: f64) -
         .add(label::centred(&text, size, at).set("fill", paint::PAPER).set("font-weight", "bold"))
 }
 
-/// Large enough to be read even where the discs are small.
+/// Large enough to be read on small discs too.
 fn badge_radius(disc: &Disc, view: &View) -> f64 {
     (0.3 * view.length(disc.radius)).clamp(8.0, 14.0)
 }

@@ -1,4 +1,4 @@
-//! The colours, and the few shapes that everything is made of.
+//! The colours and basic shapes.
 
 use core::f64::consts::TAU;
 
@@ -30,14 +30,14 @@ pub(super) const MOVED: Paint = Paint { fill: "#b7e1cd", line: "#137a43" };
 pub(super) const NEEDED: Paint = Paint { fill: "#d7e3fc", line: "#1a56c4" };
 pub(super) const CORE: Paint = Paint { fill: "#d32f2f", line: "#7f0000" };
 pub(super) const BLOCKED: Paint = Paint { fill: "#f8caca", line: "#b3544f" };
-/// The fingers as they pick an object at its old place.
+/// The fingers at the grasp of an object.
 pub(super) const GRASP: Paint = Paint { fill: "#1a73e8", line: "#0b4aa2" };
-/// The fingers as they let it go at the new one.
+/// The fingers at its release.
 pub(super) const RELEASE: Paint = Paint { fill: "#34a853", line: "#137a43" };
-/// The fingers as they pick the target.
+/// The fingers at the grasp of the target.
 pub(super) const TARGET_GRASP: Paint = Paint { fill: "#f29900", line: "#8a5a00" };
 
-/// A number of pixels: two digits are more than any screen shows.
+/// A number of pixels, with two decimals: finer than any screen.
 pub(super) fn px(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

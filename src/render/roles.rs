@@ -1,9 +1,9 @@
-//! What each object is in the answer.
+//! The role of each object in the answer.
 
 use singulate_planner::plan::{Answer, Verdict};
 use singulate_planner::scene::{ObjectIndex, Scene};
 
-/// An object's part in the answer.
+/// An object's role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     /// Stays where it is.

@@ -1,4 +1,4 @@
-//! The drawing as a reader of XML sees it.
+//! The drawing, read as XML.
 
 use core::f64::consts::PI;
 
@@ -15,7 +15,7 @@ fn rectangle(x_min: f64, y_min: f64, x_max: f64, y_max: f64) -> RectangleDraft {
     RectangleDraft { x_min: Some(x_min), y_min: Some(y_min), x_max: Some(x_max), y_max: Some(y_max) }
 }
 
-/// Objects `ids` in rows, the first one wanted, the last one fixed.
+/// Objects `ids` in rows; the first one is the target, the last one is fixed.
 fn scene(ids: &[&str]) -> Scene {
     let object = |(at, id): (usize, &&str)| ObjectDraft {
         id: Some((*id).to_owned()),
@@ -59,7 +59,7 @@ fn relocate(scene: &Scene, moved: &[usize]) -> Answer {
     answer(Verdict::Relocate(Plan { relocations, target_grasp: grasp, bound: Some(bound) }))
 }
 
-/// Panics where the text is not well-formed XML: tags nest, attributes are quoted, `<` and `&` are escaped.
+/// Panics if the text is not well-formed XML: tags nest, attributes are quoted, `<` and `&` are escaped.
 fn parse(xml: &str) {
     let mut open: Vec<&str> = Vec::new();
     let mut rest = xml;
@@ -132,7 +132,7 @@ fn the_core_of_a_deadlock_is_red_and_the_rest_of_it_pale() {
     let scene = scene(&["t", "a", "b", "c", "d"]);
     let deadlock = Deadlock { blocked: objects(&[0, 1, 2]), core: objects(&[0, 2]) };
     let drawing = svg(&scene, &answer(Verdict::Deadlock(Some(deadlock))));
-    // The legend shows each colour once more.
+    // One more for the legend.
     assert_eq!(drawing.matches(paint::CORE.fill).count(), 3);
     assert_eq!(drawing.matches(paint::BLOCKED.fill).count(), 2);
     assert!(drawing.contains("deadlock: 2 objects hold each other"));

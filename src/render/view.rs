@@ -5,15 +5,15 @@ use nalgebra::Point2;
 use singulate_planner::plan::{Answer, Verdict};
 use singulate_planner::scene::{Disc, Scene};
 
-/// Room round everything, px.
+/// Padding on all sides, px.
 pub(super) const PADDING: f64 = 24.0;
-/// Room above the table for the headline, px.
+/// Space above the table for the headline, px.
 const HEADER: f64 = 84.0;
 /// The largest table in the drawing, px.
 const LARGEST: (f64, f64) = (1000.0, 800.0);
 /// The least width, px, so that headline and legend have room beside a narrow table.
 const LEAST_WIDTH: f64 = 720.0;
-/// How much of what stands out over the table's edge is shown, as a share of the table's longer side.
+/// The largest part shown beyond the table's edge, as a share of the table's longer side.
 const OVERHANG: f64 = 0.2;
 
 /// The part of the world that is drawn, and its scale.
@@ -21,16 +21,16 @@ const OVERHANG: f64 = 0.2;
 pub(super) struct View {
     /// px per metre.
     scale: f64,
-    /// Upper left corner of what is drawn, m.
+    /// Upper left corner of the drawn area, m.
     corner: Point2<f64>,
-    /// Where that corner is, px.
+    /// The pixel of that corner.
     origin: (f64, f64),
-    /// What is drawn, px.
+    /// Size of the drawn area, px.
     extent: (f64, f64),
 }
 
 impl View {
-    /// The table to scale, with what stands out over its edge.
+    /// The table to scale, with objects that hang over its edge.
     pub(super) fn new(scene: &Scene, answer: &Answer) -> Self {
         let top = scene.table().top();
         let (mut min, mut max) = (top.min(), top.max());
@@ -63,7 +63,7 @@ impl View {
         Point2::new(self.origin.0 + x, self.origin.1 + y)
     }
 
-    /// Where the table is drawn: x, y, width, height, px, with room for the strokes.
+    /// The table's rectangle: x, y, width, height, px, with space for the strokes.
     pub(super) fn frame(&self) -> (f64, f64, f64, f64) {
         let ((x, y), (width, height)) = (self.origin, self.extent);
         (x - 3.0, y - 3.0, width + 6.0, height + 6.0)
@@ -80,7 +80,7 @@ impl View {
     }
 }
 
-/// Every disc that has to be seen: objects where they stand, and the reach of every drawn grasp.
+/// Every disc that must be visible: objects, and the reach of every drawn grasp.
 fn drawn<'a>(scene: &'a Scene, answer: &'a Answer) -> impl Iterator<Item = Disc> + 'a {
     let reach = |disc: Disc| Disc { radius: scene.gripper().corner_distance(disc.radius), ..disc };
     let relocations = match &answer.verdict {

@@ -1,4 +1,4 @@
-//! Log lines on stderr: stdout belongs to answers.
+//! Log lines on stderr, since stdout is for answers.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::registry;
 use tracing_subscriber::util::SubscriberInitExt;
 
-/// The levels that a filter may name, the fewest lines first.
+/// The levels of a filter, from least to most verbose.
 const LEVELS: [(&str, LevelFilter); 6] = [
     ("off", LevelFilter::OFF),
     ("error", LevelFilter::ERROR),
@@ -19,23 +19,23 @@ const LEVELS: [(&str, LevelFilter); 6] = [
     ("trace", LevelFilter::TRACE),
 ];
 
-/// The level where a filter names none for all. Only `off` makes the service silent, not a part that is mistyped.
+/// The default level. A mistyped part must not silence the service; only `off` does.
 const DEFAULT: LevelFilter = LevelFilter::INFO;
 
-/// How log lines are written.
+/// The format of log lines.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LogFormat {
-    /// For people.
+    /// For humans.
     #[default]
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 
-/// Which lines are written: a level for all, and levels for parts of the program, `PART=LEVEL`, separated by commas.
+/// The log filter: a level for all, and levels for parts of the program, `PART=LEVEL`, separated by commas.
 ///
 /// # Errors
-/// What is wrong with the filter, and the levels that there are.
+/// The fault of the filter, and the valid levels.
 pub fn filter(text: &str) -> Result<Targets, String> {
     let (mut all, mut parts) = (DEFAULT, Targets::new());
     for entry in text.split(',').map(str::trim) {
@@ -80,11 +80,11 @@ pub(super) fn init(log: &str, format: LogFormat) -> Result<(), String> {
     begun.map_err(|error| error.to_string())
 }
 
-/// Stderr for lines of JSON.
+/// Stderr for JSON lines.
 struct JsonLines;
 
 impl Write for JsonLines {
-    /// Takes a whole line at a time, as the log gives it.
+    /// Takes a whole line at a time, as the logger writes it.
     fn write(&mut self, line: &[u8]) -> io::Result<usize> {
         io::stderr().write_all(&escaped(line))?;
         Ok(line.len())
@@ -95,8 +95,8 @@ impl Write for JsonLines {
     }
 }
 
-/// The same JSON without DEL and the control characters U+0080 to U+009F, which JSON may hold as they are and terminals
-/// obey: within its strings, and they are nowhere else, each has an escape.
+/// The same JSON with DEL and the control characters U+0080 to U+009F escaped. JSON allows them unescaped, but
+/// terminals obey them. They occur only in strings, where an escape is valid.
 fn escaped(line: &[u8]) -> Cow<'_, [u8]> {
     let control = |at: usize| match (line[at], line.get(at + 1)) {
         (0x7f, _) => Some((1, 0x7f)),
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(shown("info,singulate=debug"), (debug, info));
         assert_eq!(shown(" singulate = debug , warn "), (debug, warn));
         assert_eq!(shown("singulate::jobs=off,warn"), (none, warn));
-        // What no entry names is as if nothing were said, so that a part which is mistyped silences nobody.
+        // Unknown parts have the default level, so that a mistyped part silences nothing.
         assert_eq!(shown("singulate=debug"), (debug, info));
         assert_eq!(shown("singluate=debug"), (info, info));
     }

@@ -1,4 +1,4 @@
-//! Where log lines and traces go.
+//! Sends log lines to stderr and spans to a collector.
 
 mod log;
 mod otlp;
@@ -6,10 +6,10 @@ mod otlp;
 pub use log::{LogFormat, filter};
 pub use otlp::{Endpoint, Export};
 
-/// Begin to log, and to send traces where there is an endpoint.
+/// Start logging, and export traces if there is an endpoint.
 ///
 /// # Errors
-/// A filter that is none, logging that has begun already, or an exporter that can't be made.
+/// If the filter is invalid, logging has started already, or the exporter can't be made.
 pub fn init(log: &str, format: LogFormat, endpoint: Option<&Endpoint>) -> Result<Option<Export>, String> {
     log::init(log, format)?;
     endpoint.map(Export::begin).transpose()

@@ -1,4 +1,4 @@
-//! Sends spans to a collector: OTLP over HTTP, in batches, from a thread of its own.
+//! Exports spans to a collector: OTLP over HTTP, in batches, from its own thread.
 
 use core::fmt;
 use core::str::FromStr;
@@ -18,20 +18,20 @@ use rustls::RootCertStore;
 use crate::jobs::client_builder;
 use crate::traces;
 
-/// Spans that may wait to be sent; more are dropped. About 2 MB.
+/// Spans in the export queue; more are dropped. About 2 MB.
 const QUEUE: usize = 2048;
-/// Spans in one call of the collector.
+/// Spans per export.
 const BATCH: usize = 512;
-/// How long a span waits for others at the most.
+/// The longest delay of a span for its batch.
 const DELAY: Duration = Duration::from_secs(2);
-/// How long the collector may take for a batch, tries again included.
+/// Timeout of an export, with retries.
 const EXPORT_PATIENCE: Duration = Duration::from_secs(10);
-/// How long the process waits at its end for the last spans to be taken. Less than a shutdown may take by any measure.
+/// How long the process waits at its end for the last spans. Short against any shutdown limit.
 const FLUSH: Duration = Duration::from_secs(2);
-/// How often a collector that fails is worth a line in the log.
+/// The least time between two log lines about a failing collector.
 const COMPLAINT_PAUSE: Duration = Duration::from_secs(60);
 
-/// Where a collector listens: the part of its URL before `/v1/traces`.
+/// The address of a collector: its URL before `/v1/traces`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Endpoint(Url);
 
@@ -39,7 +39,7 @@ impl FromStr for Endpoint {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        // The client has no TLS; a collector stands next door.
+        // The client has no TLS; a collector runs close by.
         let url = Url::parse(text).ok().filter(|url| url.scheme() == "http" && url.has_host());
         let plain = url.filter(|url| url.query().is_none() && url.fragment().is_none());
         plain.map(Self).ok_or_else(|| format!("'{text}' is not a URL like http://localhost:4318"))
@@ -52,14 +52,14 @@ impl fmt::Display for Endpoint {
     }
 }
 
-/// Spans on their way to the collector.
+/// The running export of spans.
 #[derive(Debug)]
 pub struct Export {
     provider: SdkTracerProvider,
 }
 
 impl Export {
-    /// Begin to collect and to send. Not within an asynchronous context, for its client blocks.
+    /// Start to collect and export. Not within an async context, since the client blocks.
     ///
     /// # Errors
     /// If the exporter can't be made.
@@ -70,7 +70,7 @@ impl Export {
     }
 
     fn to(endpoint: &Endpoint, patience: Duration) -> Result<Self, String> {
-        // A proxy of the environment would be asked for a machine next door.
+        // A proxy from the environment would be asked for a machine close by.
         let client = ClientBuilder::from(client_builder(RootCertStore::empty())).timeout(patience).no_proxy().build();
         let exporter = opentelemetry_otlp::SpanExporter::builder()
             .with_http()
@@ -92,7 +92,7 @@ impl Export {
         Ok(Self { provider: provider.build() })
     }
 
-    /// Send what has been collected, but wait no longer than two seconds for a collector that doesn't take it. Blocks.
+    /// Export the collected spans, and wait at most two seconds for the collector. Blocks.
     pub fn finish(self) {
         if let Err(error) = self.provider.shutdown_with_timeout(FLUSH) {
             tracing::warn!(%error, "the last spans were not delivered");
@@ -100,7 +100,7 @@ impl Export {
     }
 }
 
-/// An exporter that says in the log what fails, once in a while.
+/// An exporter that logs failures, at a limited rate.
 #[derive(Debug)]
 struct Telling<E> {
     exporter: E,
@@ -170,7 +170,7 @@ mod tests {
     fn a_collector_that_never_answers_is_not_waited_for() {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let endpoint = format!("http://{}", listener.local_addr().unwrap()).parse().unwrap();
-        // Only the bound on the flush ends it so soon that the exporter still waits.
+        // Only the bound on the flush can end it while the exporter still waits.
         let export = Export::to(&endpoint, PATIENCE).unwrap();
         export.provider.tracer("test").start("span").end();
         export.finish();

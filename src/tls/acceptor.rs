@@ -1,4 +1,4 @@
-//! The beginning of a connection.
+//! TLS handshakes of new connections.
 
 use std::io;
 use std::sync::Arc;
@@ -11,29 +11,30 @@ use tokio_rustls::server::TlsStream;
 
 use super::server::Server;
 
-/// Accepts connections with the certificate that is current.
+/// Accepts connections with the current certificate.
 #[derive(Clone)]
 pub struct Acceptor(watch::Receiver<Arc<Server>>);
 
-/// A connection once both sides have agreed.
+/// A connection after its handshake.
 pub struct Accepted<S> {
-    /// What to speak over.
+    /// The encrypted stream.
     pub stream: TlsStream<S>,
-    /// What the client has shown.
+    /// The client's certificate.
     pub client_certificate: Option<ClientCertificate>,
 }
 
-/// A client's certificate: when it was shown, one of the authorities had signed it.
+/// A client's certificate, signed by a listed authority at the time of the handshake.
 pub struct ClientCertificate {
-    /// The client's own first.
+    /// The client's own certificate first.
     chain: Vec<CertificateDer<'static>>,
     checked_by: Arc<Server>,
     server: watch::Receiver<Arc<Server>>,
 }
 
 impl ClientCertificate {
-    /// True as long as one of the authorities that are listed now has signed it. Where files have been replaced since,
-    /// it is checked again at each request, its dates too: clients of an authority that is still listed go on with the connections they have.
+    /// True while one of the authorities listed now has signed it. If files were replaced since the handshake, it is
+    /// verified again at each request, with its dates: clients of an authority that is still listed keep their
+    /// connections.
     pub fn holds(&self) -> bool {
         let server = Arc::clone(&self.server.borrow());
         let Some((own, others)) = self.chain.split_first() else { return false };
@@ -47,10 +48,10 @@ impl Acceptor {
         Self(server)
     }
 
-    /// Agree with a client. Takes as long as the client does.
+    /// Do the handshake. Takes as long as the client does.
     ///
     /// # Errors
-    /// If the client speaks no TLS 1.3, or shows a certificate of a stranger, or goes away.
+    /// If the client lacks TLS 1.3, shows a certificate of an unknown authority, or disconnects.
     pub async fn accept<S: AsyncRead + AsyncWrite + Unpin>(&self, stream: S) -> io::Result<Accepted<S>> {
         let server = Arc::clone(&self.0.borrow());
         let stream = TlsAcceptor::from(Arc::clone(&server.config)).accept(stream).await?;

@@ -8,17 +8,17 @@ use super::server::Server;
 use super::{Acceptor, TlsError, TlsSettings};
 use crate::watched_files::WatchedFiles;
 
-/// The service's certificate with its key, and the authorities of its clients, as they are in their files now.
+/// The service's certificate with its key, and the client authorities, from the current files.
 pub struct Certificates {
     files: WatchedFiles,
     server: watch::Sender<Arc<Server>>,
 }
 
 impl Certificates {
-    /// Read them. None where TLS is not spoken.
+    /// Read the files. `None` without TLS.
     ///
     /// # Errors
-    /// If files are missing, or can't be read, or don't fit together.
+    /// If files are missing, unreadable, or don't match.
     pub fn read(settings: &TlsSettings) -> Result<Option<Self>, TlsError> {
         let Some(paths) = settings.files()? else { return Ok(None) };
         let files = WatchedFiles::read(paths)?;
@@ -26,14 +26,13 @@ impl Certificates {
         Ok(Some(Self { files, server }))
     }
 
-    /// Accepts connections, each with the certificate of its moment.
+    /// An acceptor that always uses the current certificate.
     pub fn acceptor(&self) -> Acceptor {
         Acceptor::new(self.server.subscribe())
     }
 
-    /// Look after the files for ever. Connections that are open live on when a certificate is replaced, but not those of
-    /// clients whose authority is listed no longer. Files that don't fit together, perhaps because only one of them is
-    /// written yet, change nothing.
+    /// Reload the files for ever. Open connections survive a new certificate, except those of clients whose authority
+    /// is no longer listed. Files that don't match change nothing: perhaps only one of them is written yet.
     pub async fn keep_current(mut self) {
         tracing::info!(sha256 = %self.server.borrow().fingerprint, "certificate");
         loop {

@@ -1,7 +1,7 @@
-//! TLS: from files with certificates to connections that nobody else can read.
+//! TLS: from certificate files to encrypted connections.
 //!
-//! Version 1.3 alone: every client library since 2018 has it, and what it lacks can't go wrong. There is no older version
-//! to be talked down to, no renegotiation, no suite that must not be chosen.
+//! Version 1.3 alone: every client library since 2018 has it. So there is no downgrade to an older version, no
+//! renegotiation, and no weak cipher suite.
 
 mod acceptor;
 mod certificates;

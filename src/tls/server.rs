@@ -1,4 +1,4 @@
-//! From the contents of the files to what a connection begins with.
+//! The TLS configuration of the server, from the contents of the files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use rustls::server::danger::ClientCertVerifier;
 use rustls::{RootCertStore, ServerConfig, version};
 use sha2::{Digest, Sha256};
 
-/// Why TLS can't be spoken. Says nothing of what stands in a key's file.
+/// Why TLS can't start. Never shows the content of a key file.
 #[derive(Debug, thiserror::Error)]
 pub enum TlsError {
     /// Not all files are named.
@@ -21,12 +21,12 @@ pub enum TlsError {
     /// A file can't be read.
     #[error(transparent)]
     Unread(#[from] io::Error),
-    /// A file does not hold what it should.
+    /// A file has the wrong content.
     #[error("{}: {detail}", .path.display())]
     Unfit {
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         detail: String,
     },
 }
@@ -35,10 +35,10 @@ fn unfit(path: &Path, detail: impl ToString) -> TlsError {
     TlsError::Unfit { path: path.to_owned(), detail: detail.to_string() }
 }
 
-/// How connections begin, and by what the operator knows the certificate again: SHA-256, as openssl prints it.
+/// The TLS configuration, and the fingerprint of the certificate for the log: SHA-256, as openssl prints it.
 pub(super) struct Server {
     pub(super) config: Arc<ServerConfig>,
-    /// Tells whose clients are let in.
+    /// Verifies client certificates.
     pub(super) clients: Arc<dyn ClientCertVerifier>,
     pub(super) fingerprint: String,
 }
@@ -47,7 +47,7 @@ impl Server {
     /// From the files of [`TlsSettings`](super::TlsSettings), in their order.
     ///
     /// # Errors
-    /// If one of them holds something else than it should, or the key is not the certificate's.
+    /// If a file has the wrong content, or the key does not match the certificate.
     ///
     /// # Panics
     /// Never: ring speaks TLS 1.3.
@@ -57,7 +57,7 @@ impl Server {
         let (Some((cert, chain)), Some((key, secret))) = (files.next(), files.next()) else { return Err(missing) };
         let chain = certificates(cert, chain)?;
         let fingerprint = fingerprint(&chain[0]);
-        // What the parser has to say may hold a line of the file.
+        // The parser's message may quote a line of the file.
         let no_key = "no private key in PEM (PKCS#8, SEC1 or PKCS#1, not encrypted)";
         let secret = PrivateKeyDer::from_pem_slice(secret).map_err(|_| unfit(key, no_key))?;
         let provider = Arc::new(ring::default_provider());
@@ -80,13 +80,13 @@ fn certificates(path: &Path, pem: &[u8]) -> Result<Vec<CertificateDer<'static>>,
     let found = CertificateDer::pem_slice_iter(pem).collect::<Result<Vec<_>, _>>();
     match found {
         Ok(found) if !found.is_empty() => Ok(found),
-        // Somebody may have named the key's file here, so this does not say what the parser has to say either.
+        // The key file may have been named here by mistake, so the parser's message is left out too.
         _ => Err(unfit(path, "no certificate in PEM, or one that is broken")),
     }
 }
 
-/// Clients show certificates of these authorities or none. Whoever shows none is refused request by request, since probes
-/// are answered all the same.
+/// Client certificates are optional at the handshake and must be of these authorities. A client without one is refused
+/// request by request, since probes are answered even so.
 fn client_verifier(
     path: &Path,
     pem: &[u8],
@@ -128,7 +128,7 @@ mod tests {
         let ((cert, key), (other_cert, other_key)) = (pair(), pair());
         assert_eq!(fault(&[&cert, &key]), "");
         assert_eq!(fault(&[&cert, &key, &other_cert]), "");
-        // Both in one file, and a chain, of which the first is the service's.
+        // Both in one file, and a chain that starts with the service's certificate.
         assert_eq!(fault(&[&format!("{key}{cert}{other_cert}"), &format!("{cert}{key}")]), "");
         assert!(fault(&[&format!("{other_cert}{cert}"), &key]).starts_with("key.pem: with cert.pem: "));
         assert!(fault(&[&cert, &other_key]).starts_with("key.pem: with cert.pem: "));
@@ -172,7 +172,7 @@ mod tests {
     fn a_key_may_be_written_as_openssl_wrote_keys_of_curves_before_pkcs8() {
         let key = KeyPair::generate().unwrap();
         let cert = CertificateParams::new(["localhost".to_owned()]).unwrap().self_signed(&key).unwrap();
-        // PKCS#8 is a key as SEC1 has it, in an envelope: the last of its parts but for what may follow.
+        // PKCS#8 wraps a SEC1 key; it is the last part but for optional ones.
         let pkcs8 = key.serialize_der();
         let at = pkcs8.windows(5).position(|bytes| bytes[0] == 0x30 && bytes[2..] == [2, 1, 1]).unwrap();
         let sec1 = &pkcs8[at..at + 2 + usize::from(pkcs8[at + 1])];
@@ -181,7 +181,7 @@ mod tests {
         Server::new(&["cert.pem".into(), "key.pem".into()], &files).unwrap();
     }
 
-    /// A section of PEM.
+    /// A PEM section.
     fn pem(label: &str, der: &[u8]) -> String {
         const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         let mut text = String::new();

@@ -1,23 +1,22 @@
-//! What the operator may set about TLS.
+//! The operator's settings for TLS.
 
 use std::path::PathBuf;
 
 use super::TlsError;
 
-/// The files with certificates, PEM. Without any of them the service speaks plain HTTP.
+/// The certificate files, PEM. Without any the service speaks plain HTTP.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TlsSettings {
-    /// The service's certificate, followed by those that lead to an authority which clients know.
+    /// The service's certificate, followed by its chain up to an authority that clients know.
     pub cert: Option<PathBuf>,
     /// Its private key.
     pub key: Option<PathBuf>,
-    /// The authorities whose clients are let in.
+    /// The authorities of client certificates.
     pub client_ca: Option<PathBuf>,
 }
 
 impl TlsSettings {
-    /// The files: certificate, key, and the clients' authorities if clients need a certificate. None where TLS is not
-    /// spoken.
+    /// The files: certificate, key, and the client authorities if clients need a certificate. `None` without TLS.
     pub(super) fn files(&self) -> Result<Option<Vec<PathBuf>>, TlsError> {
         match (&self.cert, &self.key) {
             (Some(cert), Some(key)) => Ok(Some([cert, key].into_iter().chain(&self.client_ca).cloned().collect())),

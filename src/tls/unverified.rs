@@ -1,4 +1,4 @@
-//! A client that takes whatever certificate it is shown.
+//! A TLS client that accepts any certificate.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use rustls::crypto::{CryptoProvider, ring, verify_tls12_signature, verify_tls13_
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
 use rustls::{ClientConfig, DigitallySignedStruct, Error, SignatureScheme};
 
-/// For a service that asks itself whether it is ready. It does so by an address of its own machine, which no certificate
-/// names, and tells no secret.
+/// For the health check of this machine's service. It connects to an address of its own machine, which no certificate
+/// names, and sends no secret.
 ///
 /// # Panics
 /// Never: ring speaks every version of TLS that rustls asks for.
@@ -19,7 +19,7 @@ pub fn unverified_client() -> ClientConfig {
     config.with_custom_certificate_verifier(Arc::new(Anybody(provider))).with_no_client_auth()
 }
 
-/// Takes any certificate, but not from somebody who has no key for it.
+/// Accepts any certificate whose key the server holds.
 #[derive(Debug)]
 struct Anybody(Arc<CryptoProvider>);
 

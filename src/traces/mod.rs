@@ -1,7 +1,7 @@
-//! Spans: which request led to which planning, and how long each part took.
+//! Spans: the planning that a request caused, and the time of each part.
 //!
-//! They go to whatever [`collect`] names, once a process; as long as it names nothing they cost a look. The context of
-//! OpenTelemetry carries a request's span to the thread that plans.
+//! They go to the tracer given to [`collect`], once per process; without one they cost a check. The OpenTelemetry
+//! context carries a request's span to the planning thread.
 
 mod spans;
 mod traceparent;

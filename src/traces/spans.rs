@@ -1,4 +1,4 @@
-//! The spans that there are.
+//! The spans of requests and plans.
 
 use std::sync::OnceLock;
 use std::time::SystemTime;
@@ -12,17 +12,17 @@ use singulate_planner::plan::Answer;
 
 static TRACER: OnceLock<SdkTracer> = OnceLock::new();
 
-/// From now on spans go to this tracer. A second one is not heard: log lines too have one place a process.
+/// From now on spans go to this tracer. A second call is ignored: a process has one tracer, as it has one log.
 pub fn collect(tracer: SdkTracer) {
     let _ = TRACER.set(tracer);
 }
 
-/// From a request's head to its answer's. Ends when it is dropped.
+/// A request, from its head to the end of its answer. Ends when dropped.
 #[derive(Debug)]
 pub struct RequestSpan(Context);
 
 impl RequestSpan {
-    /// Begin; `None` where nobody collects. The route is its template.
+    /// Begin; `None` without a tracer. The route is its template.
     pub fn begin(method: &str, route: &str, id: &str, parent: Option<&Traceparent>) -> Option<Self> {
         let tracer = TRACER.get()?;
         let attributes = [
@@ -37,12 +37,12 @@ impl RequestSpan {
         Some(Self(Context::new().with_span(span)))
     }
 
-    /// What is done in this context is done for the request.
+    /// Work in this context belongs to the request.
     pub fn context(&self) -> Context {
         self.0.clone()
     }
 
-    /// How it ended; without a status its client had gone.
+    /// The request's status; without one its client had hung up.
     pub fn answered(&self, status: Option<u16>) {
         let span = self.0.span();
         match status {
@@ -63,7 +63,7 @@ impl Drop for RequestSpan {
     }
 }
 
-/// One planning, within whatever context it runs.
+/// One planning, in the current context.
 #[derive(Debug)]
 pub struct PlanSpan {
     tracer: &'static SdkTracer,
@@ -72,7 +72,7 @@ pub struct PlanSpan {
 }
 
 impl PlanSpan {
-    /// Begin; `None` where nobody collects.
+    /// Begin; `None` without a tracer.
     pub fn begin() -> Option<Self> {
         let tracer = TRACER.get()?;
         let began = SystemTime::now();
@@ -80,7 +80,7 @@ impl PlanSpan {
         Some(Self { tracer, context: Context::new().with_span(span), began })
     }
 
-    /// The planner's answer. The core keeps no spans, only how long each phase took: they are laid end to end.
+    /// Records the answer. The planner gives only the duration of each phase, so their spans are laid end to end.
     pub fn answered(&self, answer: &Answer) {
         let span = self.context.span();
         if !span.is_recording() {

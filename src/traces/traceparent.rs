@@ -1,22 +1,22 @@
-//! The header `traceparent` (W3C Trace Context): in which trace the client's call stands.
+//! The header `traceparent` (W3C Trace Context): the client's span.
 
 use core::fmt;
 
 use opentelemetry::trace::{SpanContext, SpanId, TraceFlags, TraceId, TraceState};
 
-/// The caller's place in its trace.
+/// The client's span.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traceparent(SpanContext);
 
 impl Traceparent {
-    /// Read the header. `None` where it is not valid: the call begins a trace of its own then.
+    /// Read the header. `None` if it is invalid: the request then begins a new trace.
     pub fn parse(text: &str) -> Option<Self> {
         let mut parts = text.trim().split('-');
         let version = number(parts.next()?, 2)?;
         let trace = number(parts.next()?, 32)?;
         let parent = number(parts.next()?, 16)?;
         let flags = number(parts.next()?, 2)?;
-        // Later versions may have more parts; 255 is none.
+        // Later versions may have more parts; version 255 is invalid.
         let more = parts.next().is_some();
         if trace == 0 || parent == 0 || version == 255 || (version == 0 && more) {
             return None;
@@ -31,14 +31,14 @@ impl Traceparent {
     }
 }
 
-/// The trace's id, as logs show it.
+/// The trace id for logs.
 impl fmt::Display for Traceparent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.trace_id().fmt(f)
     }
 }
 
-/// So many lower-case hexadecimal digits.
+/// This many lower-case hexadecimal digits.
 fn number(text: &str, digits: usize) -> Option<u128> {
     let valid = text.len() == digits && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
     if valid { u128::from_str_radix(text, 16).ok() } else { None }

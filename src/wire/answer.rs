@@ -85,7 +85,7 @@ pub enum VerdictWord {
 }
 
 impl fmt::Display for VerdictWord {
-    /// As it stands in the JSON.
+    /// Its name in JSON.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
@@ -189,8 +189,8 @@ impl AnswerBody {
         }
     }
 
-    /// The answer to a request that was too large to be read in its time: `timed_out`. `None` where not even the target
-    /// is known.
+    /// The answer to a request that was too large to be read in its time: `timed_out`. `None` if even the target is
+    /// unknown.
     pub fn unread(glance: &Glance) -> Option<Self> {
         let blank = Self::blank(glance.scene_id.clone(), glance.target.clone()?);
         let blank = Self { verdict: VerdictWord::TimedOut, ..blank };
@@ -249,7 +249,7 @@ impl AnswerBody {
     }
 }
 
-/// What is worth knowing: about the scene first, then about the answer. Pointers lead into the request.
+/// Warnings about the scene, then about the answer. Pointers refer to the request.
 pub fn warnings(request: &PlanRequest, answer: &Answer) -> Vec<WarningItem> {
     let of_answer = answer.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
     request.warnings.iter().cloned().chain(of_answer).collect()

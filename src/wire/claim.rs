@@ -1,4 +1,4 @@
-//! A stated answer read from JSON.
+//! Reads a stated answer from JSON.
 
 use nalgebra::Point2;
 
@@ -13,12 +13,12 @@ use super::typed;
 use singulate_planner::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
 use singulate_planner::scene::{COORDINATE_RANGE, Scene};
 
-/// A checked verification request.
+/// A valid verification request.
 #[derive(Debug, Clone)]
 pub struct VerifyRequest {
     /// The scene.
     pub request: PlanRequest,
-    /// What is stated about it.
+    /// The stated answer.
     pub claim: Claim,
 }
 
@@ -49,7 +49,7 @@ const POINT: Names = Names::of(&["x", "y"]);
 const GRASP: Names = Names::of(&["yaw", "slack"]);
 const DEADLOCK: Names = Names::of(&["blocked", "core"]);
 
-/// The greatest count that anybody may state; far above any that can hold.
+/// The greatest count that may be stated; far above any that can hold.
 const MAX_COUNT: u64 = 1_000_000_000;
 
 const VERDICTS: [(&str, VerdictName); 5] = [
@@ -60,7 +60,7 @@ const VERDICTS: [(&str, VerdictName); 5] = [
     ("timed_out", VerdictName::TimedOut),
 ];
 
-/// Read a scene and what is stated about it.
+/// Read a scene and a stated answer.
 ///
 /// # Errors
 /// A problem with every fault of the body.
@@ -81,7 +81,7 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyReques
     faults.judge(request)
 }
 
-/// Read a stated answer alone. Its `target`, if it names one, must be the scene's.
+/// Read a stated answer alone. Its `target`, if any, must be the scene's.
 ///
 /// # Errors
 /// A problem with every fault of the body.
@@ -106,10 +106,10 @@ fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Opti
     fields.stated("scene_id", faults, |node, faults| node.text(faults));
     fields.stated("target", faults, |node, faults| target(node, scene_target, faults));
     let relocations = fields.required("relocations", faults, |node, faults| {
-        // Unreadable steps are gone from this list, but their faults refuse the whole.
+        // Unreadable steps are missing from this list, but their faults refuse the whole body.
         Some(node.list(faults, |node, faults| relocation(node, faults).map(Some))?.into_iter().flatten().collect())
     });
-    // Without a verdict the steps and the last grasp are all that can be checked.
+    // Without a verdict, only the steps and the last grasp can be checked.
     if !fields.states("verdict") && !fields.states("target_grasp") {
         fields.missing("target_grasp", faults);
     }

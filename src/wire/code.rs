@@ -1,11 +1,11 @@
-//! What can be wrong with a request, in one word each.
+//! The codes of a request's faults.
 
 use core::fmt;
 
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The page that explains every word of this kind, in the project's sources.
+/// The page that explains every code, in the project's sources.
 pub(super) const ERRORS_PAGE: &str = "docs/errors.md";
 
 /// The kinds of fault of a request. Some are only ever warnings, and an overlap within the tolerance is one too.
@@ -80,14 +80,14 @@ pub enum ErrorCode {
 }
 
 impl ErrorCode {
-    /// Where it is explained.
+    /// The entry that explains it.
     pub(super) fn entry(self) -> String {
         format!("{ERRORS_PAGE}#{self}")
     }
 }
 
 impl fmt::Display for ErrorCode {
-    /// As it stands in the JSON.
+    /// Its name in JSON.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }

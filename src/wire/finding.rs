@@ -1,4 +1,4 @@
-//! What the scene's own checks found, as faults with a pointer.
+//! Findings of the scene's checks, as faults with a pointer.
 
 use super::code::ErrorCode;
 use super::path::Path;
@@ -7,13 +7,13 @@ use super::reader::Faults;
 use singulate_planner::plan::{Cause, Warning};
 use singulate_planner::scene::{Finding, Flaw, Place, Scene};
 
-/// A finding as a warning; `scene` is where the scene stands in the body.
+/// A finding as a warning; `scene` is the scene's path in the body.
 pub(super) fn item(scene: &Path<'_>, finding: &Finding) -> WarningItem {
     let pointer = at(scene, finding.place, &mut |path| path.to_string());
     WarningItem { code: code(&finding.flaw).to_string(), pointer, detail: finding.flaw.to_string() }
 }
 
-/// A warning about an answer. Its scene is the whole request.
+/// A warning about an answer. Its scene is the whole body.
 pub(super) fn warning(scene: &Scene, warning: &Warning) -> WarningItem {
     let pointer = match warning.cause() {
         Cause::Setting(name) => format!("/settings/{name}"),
@@ -31,7 +31,7 @@ pub(super) fn note(scene: &Path<'_>, finding: &Finding, faults: &mut Faults) {
     at(scene, finding.place, &mut |path| faults.add(code(&finding.flaw), path, format_args!("{}", finding.flaw)));
 }
 
-/// Walk to `place`.
+/// Builds the path of `place`.
 fn at<T>(scene: &Path<'_>, place: Place, arrive: &mut dyn FnMut(&Path<'_>) -> T) -> T {
     let objects = scene.field("objects");
     match place {

@@ -1,4 +1,4 @@
-//! The little of a request that can be told without reading all of it: enough to say in time that there was no time.
+//! Pre-parse: scene_id, target and time limit only, so that a time-out can be answered before the body is validated.
 
 use core::time::Duration;
 use std::borrow::Cow;
@@ -7,15 +7,15 @@ use serde::Deserialize;
 
 use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
 
-/// What a glance at a planning or verification request shows. What is wrong with it is for the reader to say; here a body with
-/// a field of a wrong type, or one that is there twice, shows nothing.
+/// The pre-parsed fields of a planning or verification request. Faults are reported by the reader; here a body with a
+/// field of a wrong type, or a repeated field, shows nothing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Glance {
-    /// The caller's name for the scene.
+    /// The caller's id for the scene.
     pub scene_id: Option<String>,
-    /// The object that is wanted.
+    /// The id of the target.
     pub target: Option<String>,
-    /// The time for waiting and planning.
+    /// The time limit, queuing included.
     pub time_limit: Duration,
 }
 
@@ -27,7 +27,7 @@ struct Body<'a> {
     target: Option<Cow<'a, str>>,
     #[serde(default)]
     settings: Option<Settings>,
-    /// A verification holds its scene one level down.
+    /// The scene of a verification, which is nested.
     #[serde(borrow, default)]
     scene: Option<Box<Body<'a>>>,
 }
@@ -39,7 +39,7 @@ struct Settings {
 }
 
 impl Glance {
-    /// Look at a body.
+    /// Pre-parse a body.
     pub fn at(body: &[u8], limits: &RequestLimits) -> Self {
         let mut body: Body<'_> = serde_json::from_slice(body).unwrap_or_default();
         if let Some(scene) = body.scene.take() {

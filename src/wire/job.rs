@@ -1,4 +1,4 @@
-//! A job as JSON: how it is described and written.
+//! A job as JSON: schema and serialisation.
 
 use core::ops::Deref;
 use core::str::FromStr;
@@ -133,22 +133,21 @@ pub struct JobBody {
     pub problem: Option<RawJson>,
 }
 
-/// JSON that was written once, by us. Clones share it, and it is served as it is: nobody builds a value of it or writes it
-/// anew.
+/// JSON serialised once, by us. Clones share it, and it is served as it is, without parsing or serialising again.
 #[derive(Debug, Clone)]
 pub struct RawJson(Arc<RawValue>);
 
 impl RawJson {
-    /// Write this.
+    /// Serialise this.
     ///
     /// # Errors
-    /// If it can't be written as JSON.
+    /// If it can't be serialised.
     pub fn write(body: &impl Serialize) -> serde_json::Result<Self> {
         to_raw_value(body).map(|text| Self(text.into()))
     }
 }
 
-/// What was written before, and kept. An error if it is no JSON.
+/// JSON from the store. An error if it is invalid.
 impl FromStr for RawJson {
     type Err = serde_json::Error;
 
@@ -198,7 +197,7 @@ pub struct JobListBody {
     pub next_cursor: Option<String>,
 }
 
-/// The job that the example scene becomes, for the interface document.
+/// The job of the example scene, for the interface document.
 pub fn queued_job() -> Value {
     json!({
         "id": "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e", "state": "queued", "scene_id": "cell-4/17",

@@ -1,4 +1,4 @@
-//! Requests for jobs read from JSON.
+//! Reads job requests from JSON.
 
 use super::code::ErrorCode;
 use super::limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, RequestLimits};
@@ -9,14 +9,14 @@ use super::reader::{Faults, Names, Node, parse};
 use super::request::request;
 use super::typed;
 
-/// A checked request for a job.
+/// A valid job request.
 #[derive(Debug, Clone)]
 pub struct JobRequest {
-    /// What is to be planned.
+    /// The planning request.
     pub plan: PlanRequest,
-    /// Who is to be told of the end; whether it may be told is not checked yet.
+    /// The callback URL, not yet checked against the allow list.
     pub callback_url: Option<String>,
-    /// Greater goes first.
+    /// Jobs of greater priority go first.
     pub priority: i64,
     /// The same request as JSON.
     pub body: Vec<u8>,
@@ -47,7 +47,7 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, 
     faults.judge(read.map(|job| JobRequest { body: body.to_owned(), ..job }))
 }
 
-/// Read a request for several jobs.
+/// Read a batch of job requests.
 ///
 /// # Errors
 /// A problem with every fault of the body.
@@ -76,7 +76,7 @@ fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<
 
 fn job(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<JobRequest> {
     let plan = request(node, &JOB, limits, faults);
-    // What is wrong with the fields as a whole has been noted.
+    // Faults of the object itself have been noted already.
     let fields = node.fields(&JOB, &mut Faults::default())?;
     let callback_url =
         fields.optional("callback_url", None, faults, |node, faults| callback_url(node, faults).map(Some));

@@ -65,7 +65,7 @@ pub struct HistogramBody {
 }
 
 impl KnowledgeBody {
-    /// What is known of a scene's objects.
+    /// The knowledge of a scene's objects.
     pub fn new(scene: &Scene, known: &[Known]) -> Self {
         Self { objects: known.iter().map(|known| KnownObject::new(scene, known)).collect() }
     }
@@ -88,13 +88,13 @@ impl KnownObject {
 
 impl HistogramBody {
     fn new(histogram: &PolarHistogram) -> Self {
-        // To a thousandth: more digits say nothing, and there are up to 540 figures an object.
+        // To a thousandth: more digits mean nothing, and there are up to 540 figures per object.
         let short = |values: Vec<f64>| values.into_iter().map(|value| (value * 1e3).round() / 1e3).collect();
         Self { h: short(histogram.h()), g: short(histogram.g()) }
     }
 }
 
-/// What is left of an arc where it was cut at 0 may be no more than rounding: that is left out.
+/// Arcs as intervals. An arc cut at 0 may leave a piece that is only rounding: it is dropped.
 fn intervals(arcs: &[Arc]) -> Vec<[f64; 2]> {
     arcs.iter().filter(|arc| arc.hi - arc.lo >= MIN_FREE_WIDTH).map(|arc| [arc.lo, arc.hi]).collect()
 }

@@ -1,4 +1,4 @@
-//! Says what is wrong with a body that is no JSON, in words for somebody who did not mean to write anything else.
+//! Explains faults of a body that is not JSON, for humans.
 
 use core::fmt;
 
@@ -7,12 +7,12 @@ use super::path::MAX_FAULTS;
 use super::problem::{ErrorItem, Problem, ProblemKind};
 use super::walk::{NoNumber, Slip, walk};
 
-/// What some editors put before a text in UTF-8; no part of JSON.
+/// The byte order mark that some editors add to UTF-8; not JSON.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// How a text begins that gzip has compressed.
+/// The first bytes of gzip.
 const GZIP: &[u8] = b"\x1f\x8b";
 
-/// The problem of a body that the JSON library does not read, for this reason.
+/// The problem of a body that the JSON library refused with this error.
 pub(super) fn malformed(body: &[u8], error: &serde_json::Error) -> Problem {
     let faults = faults(body, error);
     let detail = faults.first().map(|fault| fault.detail.clone()).unwrap_or_default();
@@ -80,9 +80,9 @@ fn sentence(slip: &Slip, place: Place) -> String {
     }
 }
 
-/// The encoding of a text that has zero bytes between its letters.
+/// The encoding of a text with zero bytes between its letters.
 fn wide_encoding(body: &[u8]) -> Option<&'static str> {
-    // The first letter of a request is ASCII, and a byte order mark may stand before it.
+    // The first letter of a request is ASCII; a byte order mark may precede it.
     match body {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] | [_, 0, 0, 0, ..] | [0, 0, 0, _, ..] => Some("UTF-32"),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [1..=255, 0, ..] | [0, 1..=255, ..] => Some("UTF-16"),
@@ -90,7 +90,7 @@ fn wide_encoding(body: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A place in a text, as editors count.
+/// A line and column, as editors count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Place {
     line: usize,
@@ -103,7 +103,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Finds places one after the other, so that many of them cost one pass over the text.
+/// Finds places in ascending order, so that many of them cost one pass over the text.
 pub(super) struct Places<'t> {
     text: &'t [u8],
     at: usize,
@@ -115,13 +115,13 @@ impl<'t> Places<'t> {
         Self { text, at: 0, place: Place { line: 1, column: 1 } }
     }
 
-    /// The place of this byte, which does not stand before the one of the last question.
+    /// The place of this byte, which must not precede the last one asked for.
     pub(super) fn at(&mut self, at: usize) -> Place {
         for &byte in self.text.get(self.at..at).unwrap_or_default() {
             if byte == b'\n' {
                 self.place = Place { line: self.place.line + 1, column: 1 };
             } else if byte & 0xc0 != 0x80 {
-                // Any other byte continues a letter.
+                // Any other byte continues a character.
                 self.place.column += 1;
             }
         }

@@ -1,4 +1,4 @@
-//! Scene, answer and problem as JSON. No other room knows how they are written.
+//! Scene, answer and problem as JSON. Only this room knows the format.
 //!
 //! A sound scene is read straight into a draft. Any other, and all else, is read as a JSON value and walked, so that faults of
 //! shape are told together with those of meaning, each with its JSON pointer.

@@ -1,8 +1,8 @@
-//! Where a value stands in a body.
+//! Paths of values in a body.
 
 use core::fmt;
 
-/// The way from the root to a value. Displayed as a JSON pointer (RFC 6901).
+/// The path from the root to a value. Displayed as a JSON pointer (RFC 6901).
 #[derive(Clone, Copy)]
 pub(super) enum Path<'a> {
     Root,

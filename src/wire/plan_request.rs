@@ -1,4 +1,4 @@
-//! A planning request: as it is stated, and once it is checked.
+//! Planning requests, before and after validation.
 
 use core::time::Duration;
 
@@ -11,20 +11,20 @@ use super::settings::StatedSettings;
 use singulate_planner::plan::Settings;
 use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
 
-/// A checked request.
+/// A valid request.
 #[derive(Debug, Clone)]
 pub struct PlanRequest {
     /// The scene.
     pub scene: Scene,
-    /// The caller's name for it.
+    /// The caller's id for it.
     pub scene_id: Option<String>,
-    /// How to plan.
+    /// The planning settings.
     pub settings: Settings,
     /// How deep the scene's discs may overlap, m.
     pub overlap_tolerance: f64,
-    /// The time for waiting and planning.
+    /// The time limit, queuing included.
     pub time_limit: Duration,
-    /// What is worth knowing about the scene.
+    /// Warnings about the scene.
     pub warnings: Vec<WarningItem>,
 }
 
@@ -34,7 +34,7 @@ impl AsRef<PlanRequest> for PlanRequest {
     }
 }
 
-/// What a request says, its scene unchecked.
+/// A parsed request whose scene is not validated.
 pub(super) struct StatedRequest {
     pub(super) scene_id: Option<String>,
     pub(super) draft: SceneDraft,
@@ -42,7 +42,7 @@ pub(super) struct StatedRequest {
 }
 
 impl StatedRequest {
-    /// The request that stands at `path`, unless anything is wrong with it.
+    /// Validate the request at `path`; `None` if it has a fault.
     pub(super) fn sound(self, path: &Path<'_>, limits: &RequestLimits) -> Option<PlanRequest> {
         let mut faults = Faults::default();
         let request = self.checked(path, limits, &mut faults);

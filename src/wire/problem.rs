@@ -30,7 +30,7 @@ impl ErrorItem {
         Self { code, pointer: pointer.into(), detail: detail.into(), see: code.entry() }
     }
 
-    /// Where its cause and its cure are explained.
+    /// The page that explains cause and remedy.
     pub fn see(&self) -> &str {
         &self.see
     }
@@ -130,7 +130,7 @@ pub enum ProblemKind {
 }
 
 impl ProblemKind {
-    /// Where it is explained.
+    /// The entry that explains it.
     fn entry(self) -> String {
         let uri = self.to_string();
         format!("{ERRORS_PAGE}#problem-{}", uri.rsplit(':').next().unwrap_or_default())
@@ -168,18 +168,18 @@ impl ProblemKind {
 }
 
 impl fmt::Display for ProblemKind {
-    /// As it stands in the JSON.
+    /// Its name in JSON.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
 }
 
-/// A problem in short, for a log line.
+/// A problem for a log line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cause {
     /// The kind of problem.
     pub problem: ProblemKind,
-    /// The kind of the first fault, if the body is to blame.
+    /// The kind of the first fault, if the body has any.
     pub code: Option<ErrorCode>,
 }
 
@@ -228,7 +228,7 @@ impl Problem {
         Self::new(ProblemKind::InvalidRequest, detail).with_errors(errors)
     }
 
-    /// A scene that is in order, but too dense to be planned for within the limits on memory.
+    /// A valid scene that is too dense for the memory limits.
     pub fn too_dense(detail: String) -> Self {
         Self::invalid(vec![ErrorItem::new(ErrorCode::TooDense, "/objects", detail)])
     }
@@ -239,19 +239,19 @@ impl Problem {
         Self { errors, ..self }
     }
 
-    /// The same problem under another title, where the kind's own would mislead people.
+    /// The same problem under another title, if the kind's own title would mislead.
     #[must_use]
     pub fn with_title(self, title: &'static str) -> Self {
         Self { title, ..self }
     }
 
-    /// The same problem, and when to come again.
+    /// The same problem with a `Retry-After`.
     #[must_use]
     pub fn with_retry_after(self, retry_after: Duration) -> Self {
         Self { retry_after: Some(retry_after), ..self }
     }
 
-    /// When to come again, where that is known.
+    /// The time for `Retry-After`, if known.
     pub fn retry_after(&self) -> Option<Duration> {
         self.retry_after
     }
@@ -261,7 +261,7 @@ impl Problem {
         self.kind
     }
 
-    /// In short.
+    /// For a log line.
     pub fn cause(&self) -> Cause {
         Cause { problem: self.kind, code: self.errors.first().map(|error| error.code) }
     }
@@ -271,19 +271,19 @@ impl Problem {
         self.status
     }
 
-    /// What happened this time.
+    /// The details of this occurrence.
     pub fn detail(&self) -> &str {
         &self.detail
     }
 
-    /// Every fault of the body that was found.
+    /// Every fault found in the body.
     pub fn errors(&self) -> &[ErrorItem] {
         &self.errors
     }
 }
 
 impl fmt::Display for Problem {
-    /// The title and the detail, then one line a fault.
+    /// The title and the detail, then one line per fault.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.title, self.detail)?;
         for ErrorItem { code, pointer, detail, .. } in self.errors.iter().filter(|error| !error.pointer.is_empty()) {

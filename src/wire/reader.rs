@@ -1,4 +1,4 @@
-//! Walks a JSON value, knows where it is, and notes every fault instead of stopping at the first.
+//! Walks a JSON value with its path, and collects all faults instead of stopping at the first.
 
 use core::fmt;
 
@@ -22,7 +22,7 @@ impl Faults {
         }
     }
 
-    /// What was read, unless anything is wrong with it.
+    /// The value that was read, unless there are faults.
     pub(super) fn judge<T>(self, read: Option<T>) -> Result<T, Problem> {
         match read {
             Some(value) if self.items.is_empty() => Ok(value),
@@ -31,7 +31,7 @@ impl Faults {
     }
 }
 
-/// The body as JSON, and the faults that show before it is walked: fields that are there twice.
+/// The body as a JSON value, and the faults known before the walk: repeated fields.
 ///
 /// # Errors
 /// A problem that names what is no JSON.
@@ -46,7 +46,7 @@ pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, Faults), Problem> {
     Ok((value, Faults { items: items.collect() }))
 }
 
-/// A value and its place.
+/// A value and its path.
 #[derive(Clone, Copy)]
 pub(super) struct Node<'a> {
     value: &'a Json<'a>,
@@ -95,7 +95,7 @@ impl<'a> Node<'a> {
         Some(Fields { object, path: self.path })
     }
 
-    /// An object, whatever is in it.
+    /// An object with any fields.
     pub(super) fn any_object(&self, faults: &mut Faults) -> Option<()> {
         if matches!(self.value, Json::Object(_)) { Some(()) } else { self.wrong_type("an object", faults) }
     }
@@ -125,7 +125,7 @@ impl<'a> Node<'a> {
         Some(value)
     }
 
-    /// A whole number from `min` to `max`; 3.0 is one.
+    /// An integer from `min` to `max`; 3.0 is one.
     pub(super) fn integer(&self, (min, max): (i64, i64), faults: &mut Faults) -> Option<i64> {
         let value = self.number(faults)?;
         if value.fract() != 0.0 {
@@ -141,7 +141,7 @@ impl<'a> Node<'a> {
         Some(integer)
     }
 
-    /// A whole number that is not negative.
+    /// A non-negative integer.
     pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut Faults) -> Option<u64> {
         let bound = |bound| i64::try_from(bound).unwrap_or(i64::MAX);
         self.integer((bound(min), bound(max)), faults).and_then(|value| u64::try_from(value).ok())
@@ -155,7 +155,7 @@ impl<'a> Node<'a> {
         if let Json::String(text) = self.value { Some(text.to_string()) } else { self.wrong_type("a string", faults) }
     }
 
-    /// One of a few words.
+    /// One of these words.
     pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)], faults: &mut Faults) -> Option<T> {
         let Json::String(text) = self.value else { return self.wrong_type("a string", faults) };
         let choice = choices.iter().find(|(word, _)| word == text).map(|(_, value)| *value);
@@ -166,12 +166,12 @@ impl<'a> Node<'a> {
         choice
     }
 
-    /// How many items the list has; 0 for anything else.
+    /// The length of a list; 0 for anything else.
     pub(super) fn length(&self) -> usize {
         if let Json::Array(items) = self.value { items.len() } else { 0 }
     }
 
-    /// A list. An item that can't be read keeps its place as the default value: its fault has been noted.
+    /// A list. An unreadable item is replaced by the default value; its fault has been noted.
     pub(super) fn list<T: Default>(
         &self,
         faults: &mut Faults,
@@ -191,7 +191,7 @@ impl<'a> Node<'a> {
     }
 }
 
-/// The names that the fields of an object may have.
+/// The names of an object's fields.
 pub(super) struct Names {
     pub(super) known: &'static [&'static str],
     pub(super) reserved: &'static [&'static str],
@@ -211,7 +211,7 @@ pub(super) struct Fields<'a> {
 }
 
 impl Fields<'_> {
-    /// A field that must be there.
+    /// A required field.
     pub(super) fn required<T>(
         &self,
         name: &'static str,
@@ -226,12 +226,12 @@ impl Fields<'_> {
         read(Node { value, path: &path }, faults)
     }
 
-    /// Note that a field ought to be there.
+    /// Note that a field is missing.
     pub(super) fn missing(&self, name: &'static str, faults: &mut Faults) {
         faults.add(ErrorCode::Missing, &self.path.field(name), format_args!("the field '{name}' is required"));
     }
 
-    /// A field that may be absent or null, and means `default` then. `None` only where it is there and unreadable.
+    /// An optional field; absent or null means `default`. `None` only if it is present and unreadable.
     pub(super) fn optional<T>(
         &self,
         name: &'static str,
@@ -245,7 +245,7 @@ impl Fields<'_> {
         }
     }
 
-    /// A field that may be absent or null. `None` also where it is unreadable: its fault has been noted.
+    /// An optional field. `None` also if it is unreadable; its fault has been noted.
     pub(super) fn stated<T>(
         &self,
         name: &'static str,
@@ -255,12 +255,12 @@ impl Fields<'_> {
         self.optional(name, None, faults, |node, faults| read(node, faults).map(Some)).flatten()
     }
 
-    /// True if the field is there and not null.
+    /// True if the field is present and not null.
     pub(super) fn states(&self, name: &'static str) -> bool {
         self.object.get(name).is_some_and(|value| !matches!(value, Json::Null))
     }
 
-    /// A number that must be there.
+    /// A required number.
     pub(super) fn number(&self, name: &'static str, faults: &mut Faults) -> Option<f64> {
         self.required(name, faults, |node, faults| node.number(faults))
     }

@@ -1,4 +1,4 @@
-//! A planning request read from JSON.
+//! Reads planning requests from JSON.
 
 use super::code::ErrorCode;
 use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
@@ -18,12 +18,12 @@ pub fn read_scene(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Pr
     sound(body, limits).map_or_else(|| walked(body, limits), Ok)
 }
 
-/// Read a sound body straight; see [`typed`].
+/// Parse a valid body directly; see [`typed`].
 pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<PlanRequest> {
     typed::scene(body, limits)?.sound(&Path::Root, limits)
 }
 
-/// Read any body by way of a JSON value.
+/// Read any body through a JSON value.
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
     let (value, mut faults) = parse(body)?;
     let request = request(Node::root(&value), &REQUEST, limits, &mut faults);
@@ -34,10 +34,10 @@ pub(super) const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "o
 const TABLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
 const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
 const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
-// A later version may know objects that are no discs.
+// Later versions may have other shapes than discs.
 const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
 
-/// A planning request, whose own fields stand among `names`.
+/// A planning request; `names` includes its own fields.
 pub(super) fn request(
     node: Node<'_>,
     names: &Names,
@@ -56,7 +56,7 @@ pub(super) fn request(
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
         gripper: gripper.unwrap_or_default(),
-        // Without a list of objects nobody can say that the target is not in it.
+        // Without a list of objects, the target can't be checked.
         target: target.filter(|_| objects.is_some()),
         objects: objects.unwrap_or_default(),
     };
@@ -112,7 +112,7 @@ fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
 fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<ObjectDraft>> {
     let (count, max) = (node.length(), limits.scene.max_objects);
     if count > max {
-        // Not worth the work of reading them.
+        // Reading them is not worth the work.
         faults.add(ErrorCode::TooManyObjects, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
         return None;
     }

@@ -1,5 +1,5 @@
-//! A scene as JSON: how it is described and written. The numbers of the descriptions stand here as literals, since the
-//! derive takes no others; a test compares them with the constants of `scene`.
+//! A scene as JSON: schema and serialisation. The numbers in the descriptions are literals, since the derive accepts no
+//! constants; a test compares them with the constants of `scene`.
 
 #![expect(clippy::approx_constant, reason = "the derive takes no constants, and so no PI")]
 
@@ -209,7 +209,7 @@ pub enum ObjectiveWord {
 }
 
 impl SceneBody {
-    /// A scene to be written, with default settings.
+    /// A scene for serialisation, with default settings.
     pub fn new(scene: &Scene, scene_id: Option<&str>) -> Self {
         let corners = RectangleBody::new(scene.table().top());
         let keep_out: Vec<_> = scene.table().keep_out().iter().copied().map(RectangleBody::new).collect();

@@ -1,4 +1,4 @@
-//! How to plan, read from JSON.
+//! Reads planning settings from JSON.
 
 use core::time::Duration;
 
@@ -13,12 +13,12 @@ use singulate_planner::scene::Table;
 const SETTINGS: Names =
     Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms", "overlap_tolerance"]);
 
-/// What a request says of its settings, as far as that can be told without its table.
+/// The settings of a request, before its table is known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StatedSettings {
-    /// How deep discs may overlap, m; `None` where that is unreadable.
+    /// How deep discs may overlap, m; `None` if unreadable.
     overlap_tolerance: Option<f64>,
-    /// All else; `None` where any of it is unreadable.
+    /// The other settings; `None` if any is unreadable.
     planning: Option<StatedPlanning>,
 }
 
@@ -30,7 +30,7 @@ struct StatedPlanning {
 }
 
 impl StatedSettings {
-    /// Where nothing is said.
+    /// The defaults.
     pub(super) fn absent(limits: &RequestLimits) -> Self {
         let planning = Some(StatedPlanning::absent(limits));
         Self { overlap_tolerance: Some(limits.scene.overlap_tolerance), planning }
@@ -46,13 +46,13 @@ impl StatedSettings {
         Self { overlap_tolerance, planning: StatedPlanning::read(fields, limits, faults) }
     }
 
-    /// How deep discs may overlap, m. Where the request is unreadable in this, no overlap counts that any request could
-    /// allow: what is wrong has been noted.
+    /// How deep discs may overlap, m. If it is unreadable, the greatest tolerance, so that no overlap is reported that
+    /// a valid value could allow; the fault itself has been noted.
     pub(super) fn overlap_tolerance(&self, limits: &RequestLimits) -> f64 {
         self.overlap_tolerance.unwrap_or_else(|| limits.greatest_overlap_tolerance())
     }
 
-    /// The settings on the table that they are for; `request` is the path of the request that has them.
+    /// The settings for their table; `request` is the path of their request.
     pub(super) fn on(
         self,
         table: &Table,

@@ -1,4 +1,4 @@
-//! A stated answer as JSON: how it is described.
+//! The JSON schema of a stated answer.
 
 use utoipa::openapi::schema::AdditionalProperties;
 use utoipa::openapi::{ObjectBuilder, RefOr, Schema, Type};

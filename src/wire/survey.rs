@@ -51,7 +51,7 @@ impl SurveyBody {
         Self { objects: entries.iter().map(|entry| SurveyedObject::new(scene, entry)).collect() }
     }
 
-    /// The survey that knows nothing yet of any movable object: what is left to say when time ran out before it began.
+    /// The survey with nothing decided, for a time-out before it began.
     pub fn timed_out(scene: &Scene) -> Self {
         let movable = scene.objects().iter().filter(|object| !object.fixed());
         let objects = movable.map(|object| SurveyedObject {

@@ -9,7 +9,7 @@ use crate::experiments::{
 };
 use singulate_planner::plan::SearchMethod;
 
-/// Table I. Rates are from 0 to 1, times in seconds; null stands where there is nothing to measure.
+/// Table I. Rates are from 0 to 1, times in seconds; null if there is nothing to measure.
 #[derive(Debug, Serialize)]
 pub struct Table1Body {
     /// `table1`.
@@ -18,7 +18,7 @@ pub struct Table1Body {
     pub seed: u64,
     /// Episodes in each column.
     pub episodes: usize,
-    /// Those of them that the baseline was given.
+    /// The first of them, which the baseline ran too.
     pub base_episodes: usize,
     /// For each search and each plan.
     pub time_limit_ms: u64,
@@ -33,23 +33,23 @@ pub struct Table1ColumnBody {
     pub objects: usize,
     /// Width and height of the table, m.
     pub table: [f64; 2],
-    /// What the paper prints.
+    /// The paper's figures.
     pub paper: PaperBody,
     /// By the sector model, then by the swept finger.
     pub models: [ModelBody; 2],
     /// Our planner's verdicts on every scene, by the swept finger: planned with places, and checked.
     pub plans: PlansBody,
-    /// The same for the scenes that the sector model calls a deadlock and the swept finger does not.
+    /// The same for the scenes that are a deadlock by the sector model but not by the swept finger.
     pub extra: PlansBody,
     /// True if the 95 % intervals of the deadlock rates of LOBS, ours by the sector model and the paper's, don't overlap.
     pub disagrees: bool,
-    /// Our deadlocks by the swept finger over ours by the sector model; null where there are none of those.
+    /// Our deadlocks by the swept finger over ours by the sector model; null if the latter are 0.
     pub deadlock_ratio: Option<f64>,
     /// True if that ratio is at most one half, or null.
     pub at_most_half: bool,
 }
 
-/// One column as the paper prints it.
+/// The paper's figures of one column.
 #[derive(Debug, Serialize)]
 pub struct PaperBody {
     /// Episodes in each column.
@@ -58,20 +58,20 @@ pub struct PaperBody {
     pub methods: [PaperMethodBody; 2],
 }
 
-/// One method in one column as the paper prints it.
+/// The paper's figures of one method in one column.
 #[derive(Debug, Serialize)]
 pub struct PaperMethodBody {
     /// `forward_astar`, "Base" there, or `lobs`, "Ours" there.
     pub method: SearchWord,
     /// Episodes called a deadlock over all episodes.
     pub deadlock_rate: f64,
-    /// Its 95 % interval (Wilson), which the paper doesn't give.
+    /// Its 95 % interval (Wilson), not given in the paper.
     pub deadlock_interval: [f64; 2],
     /// Episodes decided within a minute over all episodes.
     pub success_rate: f64,
     /// Mean search time, s.
     pub search_s_mean: f64,
-    /// Mean length of the sequences; 0 where there is none.
+    /// Mean length of the sequences; 0 if there is none.
     pub relocations_mean: f64,
 }
 
@@ -93,29 +93,29 @@ pub struct ModelBody {
 pub struct MethodBody {
     /// `forward_astar`, `lobs` or `landmarks`.
     pub method: SearchWord,
-    /// How many scenes it was given, the first ones.
+    /// The number of its scenes, the first ones.
     pub episodes: usize,
-    /// Episodes that it calls a deadlock.
+    /// Episodes with a deadlock.
     pub deadlocks: usize,
-    /// Those over all episodes.
+    /// Deadlocks over all episodes.
     pub deadlock_rate: Option<f64>,
     /// The rate's 95 % interval (Wilson).
     pub deadlock_interval: [f64; 2],
     /// Episodes that ended with a sequence or a deadlock.
     pub successes: usize,
-    /// Those over all episodes.
+    /// Successes over all episodes.
     pub success_rate: Option<f64>,
     /// Of the successes, sequences without any relocation: the target is graspable at once.
     pub graspable: usize,
-    /// Episodes that the time limit ended.
+    /// Episodes that timed out.
     pub late: usize,
-    /// Episodes that the limit of memory ended.
+    /// Episodes that reached the memory limit.
     pub too_large: usize,
-    /// Deadlocks that are none, by our proof on the same base.
+    /// False deadlocks, by our proof on the same base.
     pub false_deadlocks: usize,
     /// Sequences longer than the least one, by our proof on the same base.
     pub not_optimal: usize,
-    /// Mean search time over all episodes, s; those that did not end by themselves count as the time limit.
+    /// Mean search time over all episodes, s; unfinished ones count as the time limit.
     pub search_s_mean: Option<f64>,
     /// Its median.
     pub search_s_median: Option<f64>,
@@ -123,20 +123,20 @@ pub struct MethodBody {
     pub relocations_mean: Option<f64>,
 }
 
-/// What became of some scenes in our planner.
+/// Our planner's verdicts on some scenes.
 #[derive(Debug, Serialize)]
 pub struct PlansBody {
-    /// How many scenes.
+    /// The number of scenes.
     pub episodes: usize,
     /// The target is graspable at once.
     pub graspable: usize,
     /// A checked plan.
     pub relocate: usize,
-    /// Of those, plans that are proven to be as short as any.
+    /// Of those, plans proven to be optimal.
     pub optimal: usize,
     /// A proven deadlock.
     pub deadlock: usize,
-    /// No place was found for what has to move.
+    /// No places were found.
     pub no_space: usize,
     /// The time limit came first.
     pub timed_out: usize,
@@ -244,7 +244,7 @@ impl PlansBody {
     }
 }
 
-/// From 0 to 1; `None` of none.
+/// A rate from 0 to 1; `None` if `whole` is 0.
 pub(super) fn rate(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }

@@ -8,7 +8,7 @@ use super::scene::PlacementWord;
 use super::table1::{mean, median, rate};
 use crate::experiments::{ExperimentSettings, PlacementFigures, PrintedReposition, TABLE2_EPISODES, Table2Column};
 
-/// Table II. Rates are from 0 to 1, times in seconds; null stands where there is nothing to measure.
+/// Table II. Rates are from 0 to 1, times in seconds; null if there is nothing to measure.
 #[derive(Debug, Serialize)]
 pub struct Table2Body {
     /// `table2`.
@@ -30,15 +30,15 @@ pub struct Table2ColumnBody {
     pub objects: usize,
     /// Width and height of the table, m.
     pub table: [f64; 2],
-    /// What the paper prints.
+    /// The paper's figures.
     pub paper: PaperRepositionBody,
-    /// How many scenes were drawn for the episodes.
+    /// The number of scenes drawn for the episodes.
     pub drawn: usize,
-    /// The paper's way to find places, then ours, for the same sequences.
+    /// The paper's placement method, then ours, for the same sequences.
     pub placements: [PlacementBody; 2],
 }
 
-/// One column as the paper prints it.
+/// The paper's figures of one column.
 #[derive(Debug, Serialize)]
 pub struct PaperRepositionBody {
     /// Episodes in each column.
@@ -49,34 +49,34 @@ pub struct PaperRepositionBody {
     pub reposition_s_mean: Option<f64>,
 }
 
-/// One way to find places for the sequences of LOBS on the sector model's base.
+/// One placement method for the sequences of LOBS on the sector model's base.
 #[derive(Debug, Serialize)]
 pub struct PlacementBody {
-    /// How places are found.
+    /// The method.
     pub placement: PlacementWord,
-    /// How many sequences it was given.
+    /// The number of its sequences.
     pub episodes: usize,
     /// Episodes with a place for every object of the sequence.
     pub successes: usize,
-    /// Of those, episodes in which none is needed: the target is graspable at once.
+    /// Of those, episodes that need none: the target is graspable at once.
     pub graspable: usize,
     /// Successes over all episodes.
     pub success_rate: Option<f64>,
-    /// Episodes without.
+    /// Episodes without places.
     pub no_space: usize,
-    /// Episodes that the time limit ended.
+    /// Episodes that timed out.
     pub late: usize,
-    /// Mean time to find the places of one episode, s, where any is needed; late ones count as the time limit.
+    /// Mean time to find the places of one episode, s, if any are needed; time-outs count as the time limit.
     pub reposition_s_mean: Option<f64>,
     /// Its median.
     pub reposition_s_median: Option<f64>,
-    /// Plans in which the checker, which judges by the swept finger, finds any fault.
+    /// Plans with any fault by the checker, which uses the swept finger.
     pub faulty: usize,
-    /// Plans in which a finger meets an obstacle when it lets go.
+    /// Plans in which a finger meets an obstacle at release.
     pub release_blocked: usize,
     /// Plans with any other fault.
     pub otherwise_faulty: usize,
-    /// How often each fault came up in all plans, by its code.
+    /// The number of each fault in all plans, by code.
     pub faults: BTreeMap<&'static str, usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Each bad input with its pointer, and each answer with its fields.
+//! Bad inputs with their pointers, and answers with their fields.
 
 mod answers;
 mod malformed;
@@ -25,7 +25,7 @@ fn scene() -> Value {
     })
 }
 
-/// The scene with one place replaced; the place is made where it is missing.
+/// The scene with the value at `pointer` replaced or added.
 fn with(pointer: &str, value: Value) -> Value {
     let mut body = scene();
     let (parent, name) = pointer.rsplit_once('/').unwrap();
@@ -48,7 +48,7 @@ fn read(body: &str) -> Result<PlanRequest, Problem> {
     read_scene(body.as_bytes(), &RequestLimits::default())
 }
 
-/// Assert that these are the codes and the pointers of the problem's faults.
+/// Assert the codes and pointers of the problem's faults.
 #[track_caller]
 fn has_faults(problem: &Problem, expected: &[(&str, &str)]) {
     let faults = problem.errors().iter().map(|error| (error.code.to_string(), error.pointer.clone()));

@@ -23,8 +23,7 @@ pub(super) fn scene(body: &[u8], limits: &RequestLimits) -> Option<StatedRequest
     object::<RequestFields<'_>>(body)?.scene(limits)
 }
 
-/// A request for a job: the planning request, the URL of the callback, the priority. `None` unless it is sound, its scene
-/// apart.
+/// A job request: the planning request, the callback URL, the priority. `None` if it has a fault, its scene excepted.
 pub(super) fn job(body: &[u8], limits: &RequestLimits) -> Option<(StatedRequest, Option<String>, i64)> {
     let mut fields = object::<RequestFields<'_>>(body)?;
     let url = fields.callback_url.take().flatten();
@@ -35,7 +34,8 @@ pub(super) fn job(body: &[u8], limits: &RequestLimits) -> Option<(StatedRequest,
     sound.then_some((fields.scene(limits)?, url, priority))
 }
 
-/// A verification: the planning request, and the text of the plan. `None` unless the request is sound, its scene apart.
+/// A verification: the planning request, and the text of the plan. `None` if the request has a fault, its scene
+/// excepted.
 pub(super) fn verification<'t>(body: &'t [u8], limits: &RequestLimits) -> Option<(StatedRequest, &'t str)> {
     let fields = object::<VerifyFields<'t>>(body)?;
     let plan = fields.plan.get();
@@ -67,7 +67,7 @@ fn object<'t, T: Deserialize<'t>>(body: &'t [u8]) -> Option<T> {
     serde_json::from_slice::<Object<T>>(body).ok().map(|Object(fields)| fields)
 }
 
-/// A JSON object. What the derive makes would also take a list of the fields' values.
+/// A JSON object. The derived code would also accept a list of the fields' values.
 struct Object<T>(T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
@@ -90,7 +90,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
     }
 }
 
-/// A field that is there, even if it is null.
+/// A field that is present, even if it is null.
 #[expect(clippy::option_option, reason = "absent, null or a value")]
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
@@ -105,7 +105,7 @@ struct VerifyFields<'t> {
     plan: &'t RawValue,
 }
 
-/// A planning request's fields, and two that only a job has.
+/// A planning request's fields, and two of jobs.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[expect(clippy::option_option, reason = "absent, null or a value")]
@@ -184,7 +184,7 @@ impl RequestFields<'_> {
     }
 }
 
-/// Settings are few and have many rules: the walk reads them here too.
+/// Settings are few and have many rules, so they are read by the walk here too.
 fn settings(text: &RawValue, limits: &RequestLimits) -> Option<StatedSettings> {
     let (value, mut faults) = parse(text.get().as_bytes()).ok()?;
     let stated = StatedSettings::read(Node::root(&value), limits, &mut faults);

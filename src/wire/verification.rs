@@ -50,7 +50,7 @@ impl VerificationBody {
         Self { valid: faults.is_empty(), faults }
     }
 
-    /// Nothing could be checked in time.
+    /// The report if the time limit came before anything was checked.
     pub fn timed_out() -> Self {
         Self { valid: false, faults: vec![FaultBody::interrupted()] }
     }

@@ -12,13 +12,13 @@ use super::json::{Json, Object};
 use super::path::{MAX_FAULTS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
-/// How deep values may be nested; the JSON library allows as much.
+/// The deepest nesting of values, as in the JSON library.
 const MAX_DEPTH: usize = 128;
-/// The longest piece of a body that is shown, characters.
+/// The longest excerpt of a body, characters.
 const MAX_SHOWN: usize = 40;
 /// The values that are words.
 const WORDS: [&str; 3] = ["true", "false", "null"];
-/// How programs write what is no finite number, in small letters.
+/// Non-finite numbers as programs write them, in lower case.
 const NO_NUMBERS: [&str; 3] = ["nan", "inf", "infinity"];
 
 /// What a walk has found.
@@ -28,13 +28,13 @@ pub(super) struct Walk<'t> {
     pub(super) value: Json<'t>,
     /// Values such as `NaN`, which JSON has no way to write.
     pub(super) no_numbers: Vec<NoNumber>,
-    /// Fields whose name an earlier field of their object has.
+    /// Fields whose name an earlier field of the same object has.
     pub(super) repeated: Vec<Repeated>,
     /// Why the walk ended early, and where in the text.
     pub(super) slip: Option<(Slip, usize)>,
 }
 
-/// A word in place of a number.
+/// A word instead of a number.
 #[derive(Debug)]
 pub(super) struct NoNumber {
     pub(super) word: String,
@@ -44,7 +44,7 @@ pub(super) struct NoNumber {
     pub(super) id: Option<String>,
 }
 
-/// A field that is there twice.
+/// A repeated field.
 #[derive(Debug)]
 pub(super) struct Repeated {
     pub(super) name: String,
@@ -52,20 +52,20 @@ pub(super) struct Repeated {
     pub(super) pointer: String,
 }
 
-/// What is no JSON.
+/// A common slip that is not JSON.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Slip {
     Comment,
     /// Quotes of this kind.
     Quote(&'static str),
     TrailingComma,
-    /// A value that is a word.
+    /// An unknown word where a value is expected.
     Word(String),
     /// A name without quotes.
     BareName(String),
 }
 
-/// Why a walk stops. Without a slip the JSON library's own words do.
+/// Why a walk stops. Without a slip, the JSON library's own message is used.
 type Stop = Option<Slip>;
 
 /// Walk over a whole text.
@@ -102,7 +102,7 @@ impl<'t> Walker<'t> {
         self.skip_while(|byte| b" \t\r\n".contains(&byte));
     }
 
-    /// What begins here, where something else should.
+    /// The slip at this place.
     fn slip(&self) -> Stop {
         match &self.text[self.at..] {
             [b'#', ..] | [b'/', b'/' | b'*', ..] => Some(Slip::Comment),
@@ -214,7 +214,7 @@ impl<'t> Walker<'t> {
         }
     }
 
-    /// The place of the comma behind an entry; none where the list is closed instead.
+    /// The place of the comma after an entry; `None` if the list ends.
     fn comma(&mut self, close: u8) -> Result<Option<usize>, Stop> {
         self.space();
         match self.peek() {
@@ -227,7 +227,7 @@ impl<'t> Walker<'t> {
         }
     }
 
-    /// The end of an object or a list, unless a comma stands before it.
+    /// The end of an object or a list; a slip if a comma precedes it.
     fn close(&mut self, comma: Option<usize>) -> Result<(), Stop> {
         if let Some(at) = comma {
             self.at = at;
@@ -269,7 +269,7 @@ impl<'t> Walker<'t> {
             _ => {}
         }
         if self.at == self.text.len() && WORDS.iter().any(|known| known.starts_with(&word)) {
-            // The text is cut short.
+            // The text ends too early.
             return Err(None);
         }
         let unsigned = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
@@ -283,7 +283,7 @@ impl<'t> Walker<'t> {
         Ok(Json::Null)
     }
 
-    /// A word without quotes, cut to what is shown.
+    /// A word without quotes, cut to the length shown.
     fn bare(&mut self) -> String {
         let start = self.at;
         self.skip_while(|byte| byte.is_ascii_alphanumeric() || b"+-_.".contains(&byte));

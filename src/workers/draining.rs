@@ -1,29 +1,29 @@
-//! The word that the service comes to its end.
+//! The shutdown signal.
 
 use tokio_util::sync::CancellationToken;
 
-/// Whether the service drains: what runs comes to an end, nothing new begins. All clones know the same, and whoever has
-/// one may wait for the word.
+/// The shutdown signal: once it is given, running work ends and nothing new begins. Clones share it, and each can wait
+/// for it.
 #[derive(Debug, Clone, Default)]
 pub struct Draining(CancellationToken);
 
 impl Draining {
-    /// From now on.
+    /// Give the signal.
     pub fn begin(&self) {
         self.0.cancel();
     }
 
-    /// True once it has begun.
+    /// True once it is given.
     pub fn begun(&self) -> bool {
         self.0.is_cancelled()
     }
 
-    /// Done once it has begun.
+    /// Done once it is given.
     pub async fn wait(&self) {
         self.0.cancelled().await;
     }
 
-    /// What comes of it, unless draining begins before.
+    /// The result of `work`, or `None` if the signal comes first.
     pub async fn unless_begun<T>(&self, work: impl Future<Output = T>) -> Option<T> {
         self.0.run_until_cancelled(work).await
     }

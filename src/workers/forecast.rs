@@ -1,21 +1,21 @@
-//! How long a computation that comes now would wait for a thread.
+//! Forecasts how long a new computation would wait for a thread.
 
 use core::time::Duration;
 
-/// The weight of the latest computation in the mean: a busy pool knows of a change within some dozens of computations.
+/// The weight of the latest computation in the moving mean: it follows a change within some dozens of computations.
 const LATEST: f64 = 1.0 / 16.0;
-/// How many times the mean a computation counts for at the most. One survey of a minute among quick plans must not have
-/// the next plans refused that would be answered at once; where long ones go on coming, the mean follows within some dozens of them.
+/// Cap on one computation, in means. One survey of a minute among quick plans must not cause plans to be refused that
+/// would start at once. If long ones keep coming, the mean follows within some dozens of them.
 const EXCEPTION: u32 = 4;
-/// The least time that a mean is taken for when that is judged: scheduling alone makes quick ones differ by as much.
+/// The least mean for this cap: scheduling alone makes quick computations differ by as much.
 const QUICK: Duration = Duration::from_millis(1);
-/// Nothing is foreseen before so many have ended.
+/// No forecast before this many have ended.
 const LEAST_KNOWN: u32 = 8;
 
-/// The mean time of recent computations, for as long as they had their thread: those that were cut off by a deadline or
-/// a hang-up count too, for a thread was busy with them.
+/// The moving mean of how long computations had a thread. Those cut off by a deadline or a hang-up count too, since a
+/// thread was busy with them.
 ///
-/// The arithmetic mean, not the median: what waits behind ninety quick ones and ten slow ones waits for the ten.
+/// The arithmetic mean, not the median: behind ninety quick and ten slow computations, the wait is for the ten.
 #[derive(Debug, Default)]
 pub(super) struct Forecast {
     mean: Duration,
@@ -23,18 +23,18 @@ pub(super) struct Forecast {
 }
 
 impl Forecast {
-    /// A computation had a thread for so long.
+    /// Adds a computation that had a thread for this long.
     pub(super) fn note(&mut self, took: Duration) {
         self.known = self.known.saturating_add(1);
         let took = took.min(EXCEPTION * self.mean.max(QUICK));
         self.mean = self.mean.mul_f64(1.0 - LATEST) + took.mul_f64(LATEST);
     }
 
-    /// How long it takes so many threads to come to the end of these computations, each given by the time that it may
-    /// still take; `None` where nothing is known yet.
+    /// How long this many threads need for these computations, each given by the time left to its deadline; `None` if
+    /// nothing is known yet.
     ///
-    /// Whatever runs is taken to run for the mean time from now on. Times scatter over five orders of magnitude, so how
-    /// long one has run says nothing of when it will end; but its deadline ends it for certain.
+    /// A running computation is assumed to run for the mean time from now on. Times range over five orders of
+    /// magnitude, so the time already spent does not predict the end; only the deadline bounds it.
     pub(super) fn wait(&self, threads: usize, left: impl Iterator<Item = Duration>) -> Option<Duration> {
         if self.known < LEAST_KNOWN {
             return None;
@@ -50,7 +50,7 @@ mod tests {
 
     const MS: fn(u64) -> Duration = Duration::from_millis;
 
-    /// A forecast that knows of so many computations of so long.
+    /// A forecast after this many computations of this length.
     fn after(count: u32, took: Duration) -> Forecast {
         let mut forecast = Forecast::default();
         (0..count).for_each(|_| forecast.note(took));

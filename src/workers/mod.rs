@@ -1,4 +1,4 @@
-//! Runs computations on threads of their own, so that waiting for them costs the rest of the service nothing.
+//! Runs computations on dedicated threads, so that they don't block the rest of the service.
 
 mod draining;
 mod forecast;

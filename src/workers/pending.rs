@@ -1,4 +1,4 @@
-//! A computation from its caller's side: how long it may take, whether anybody still waits for it, and what became of it.
+//! A computation from its caller's side: its deadline, its cancellation and its outcome.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -10,54 +10,54 @@ use tokio::time::sleep_until;
 
 use singulate_planner::budget::{Budget, Clock};
 
-/// How long after the deadline a running computation may still deliver. The answer must leave within 50 ms of it, and on a
-/// busy machine it takes a while to be written.
+/// Grace period after the deadline in which a running computation may deliver. The answer must leave within 50 ms of
+/// the deadline, and on a busy machine it takes a while to be written.
 const DELIVERY_GRACE: Duration = Duration::from_millis(20);
 
-/// What a computation that is to finish soon has left: for the places of the best set so far, and their check. The core is
-/// to be free within 20 ms, and half of that is for the loops to hear of it and for a last replay.
+/// The time left to a recalled computation: to place the best set so far and check the plan. The core must be free
+/// within 20 ms; half of that is for the loops to notice and for a last replay.
 const LAST_WORDS: Duration = Duration::from_millis(10);
 
-/// A limit too long to be added to a clock's time stands for this one.
+/// Replaces limits too long to be added to a clock's time.
 const FAR: Duration = Duration::from_hours(24 * 365);
 
-/// What became of a computation.
+/// The outcome of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome<T> {
     /// It came to an end.
     Done(T),
-    /// Its deadline passed first, or it was to finish before it had begun.
+    /// Its deadline passed first, or it was recalled before it began.
     TimedOut,
     /// It panicked.
     Panicked,
 }
 
-/// A computation that was taken. Dropping this cancels it.
+/// An accepted computation. Dropping this cancels it.
 #[derive(Debug)]
 pub struct Pending<T> {
     ticket: Arc<Ticket>,
     reply: oneshot::Receiver<Outcome<T>>,
 }
 
-/// Calls a computation to its end while somebody else waits for its outcome. All clones call the same.
+/// Recalls a computation while another task waits for its outcome. Clones recall the same one.
 #[derive(Debug, Clone)]
 pub struct Recall(Arc<Ticket>);
 
 impl Recall {
-    /// The computation delivers the best so far; where it still waits for a thread, it has timed out.
+    /// Recall it: it delivers the best so far, or times out if it is still queued.
     pub fn finish_soon(&self) {
         self.0.finish_soon();
     }
 }
 
-/// What the caller and the thread share about one computation.
+/// The state of one computation that its caller and its thread share.
 #[derive(Debug)]
 pub(super) struct Ticket {
     arrival: Instant,
     time_limit: Duration,
-    /// Time that the caller took back, ns.
+    /// Time that was withdrawn, ns.
     withdrawn: AtomicU64,
-    /// Told when that happens.
+    /// Notified when that happens.
     recalled: Notify,
     cancelled: AtomicBool,
     started: AtomicBool,
@@ -79,36 +79,36 @@ impl Ticket {
         self.arrival + self.time_limit
     }
 
-    /// How long it may still take.
+    /// The time left.
     pub(super) fn left(&self) -> Duration {
         self.time_limit.saturating_sub(self.elapsed()).saturating_sub(self.withdrawn())
     }
 
-    /// True once it has run, or runs.
+    /// True once it has started.
     pub(super) fn started(&self) -> bool {
         self.started.load(Ordering::Acquire)
     }
 
-    /// True of one that waits for a thread if nobody waits for the answer any more.
+    /// True if a queued computation need not start any more.
     pub(super) fn abandoned(&self) -> bool {
         self.cancelled() || !self.withdrawn().is_zero() || self.left().is_zero()
     }
 
     pub(super) fn finish_soon(&self) {
         let spare = self.left().saturating_sub(LAST_WORDS);
-        // FAR is far below what this can count. A second call finds nothing to spare.
+        // FAR is far below the limit of this counter. A second call withdraws nothing more.
         self.withdrawn.fetch_max(u64::try_from(spare.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
         self.recalled.notify_one();
     }
 
-    /// On a thread of the pool.
+    /// Runs the computation on the calling thread, one of the pool's.
     pub(super) fn run<T>(&self, computation: impl FnOnce(&Budget<'_>) -> T) -> Outcome<T> {
         if self.abandoned() {
             return Outcome::TimedOut;
         }
         self.started.store(true, Ordering::Release);
         let budget = Budget::new(self, self.time_limit);
-        // The computation owns all that it touches, so nothing half-done is left behind.
+        // The computation owns all its data, so a panic leaves nothing half-done.
         catch_unwind(AssertUnwindSafe(|| computation(&budget))).map_or(Outcome::Panicked, Outcome::Done)
     }
 }
@@ -132,14 +132,13 @@ impl<T> Pending<T> {
         Self { ticket, reply }
     }
 
-    /// The way to its early end.
+    /// A handle to end it early.
     pub fn recall(&self) -> Recall {
         Recall(Arc::clone(&self.ticket))
     }
 
-    /// Wait for the computation, but not past its deadline: at once where it still waits for a thread, a little longer
-    /// where it runs and is about to deliver. One that was recalled is waited for no less: what it has found by then is
-    /// still wanted.
+    /// Wait for the outcome, but not past the deadline: a queued computation times out at once, a running one has a
+    /// grace period to deliver. A recalled one is waited for as long, since its result is still wanted.
     pub async fn outcome(mut self) -> Outcome<T> {
         let deadline = self.ticket.deadline();
         tokio::select! {
@@ -161,9 +160,9 @@ impl<T> Pending<T> {
     fn replied(&self, reply: Option<Outcome<T>>) -> Outcome<T> {
         match reply {
             Some(outcome) => outcome,
-            // Its thread died.
+            // Its thread has died.
             None if self.ticket.started() => Outcome::Panicked,
-            // It lost its place in the queue to somebody who has time left.
+            // It was dropped from the full queue for a newcomer.
             None => Outcome::TimedOut,
         }
     }

@@ -1,6 +1,6 @@
-//! The pool: a few threads, a bounded queue, and a deadline for every computation that counts from the arrival of its
-//! request. One whose caller has gone, or whose deadline has passed, never starts; one that runs is told by its budget; one
-//! that, by all that is known, could not start in time is refused at once.
+//! The pool: a few threads, a bounded queue, and a deadline per computation, counted from the arrival of its request. A
+//! computation whose caller has gone or whose deadline has passed never starts. A running one is stopped through its
+//! budget. One that is not expected to start in time is refused at once.
 
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -14,26 +14,26 @@ use super::pending::{Pending, Ticket};
 use super::queue::Queue;
 use singulate_planner::budget::Budget;
 
-/// A fixed number of threads and the computations that wait for them.
+/// A fixed number of threads and the queue for them.
 #[derive(Debug)]
 pub struct Pool {
     pub(super) shared: Arc<Shared>,
     threads: Mutex<Vec<JoinHandle<()>>>,
 }
 
-/// Why a computation was not taken.
+/// Why a computation was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Refused {
     /// Every thread is busy and the queue is full.
     #[error("every thread is busy and the queue is full")]
     Full,
-    /// Every thread is busy, and by the time of recent computations none will be free before the deadline.
+    /// Every thread is busy, and none is expected to be free before the deadline.
     #[error("no thread is likely to be free within the time limit")]
     TooLate {
-        /// When one may be.
+        /// When a thread is expected to be free.
         retry_after: Duration,
     },
-    /// The pool takes no more.
+    /// The pool is closed.
     #[error("the pool is closed")]
     Closed,
 }
@@ -49,7 +49,7 @@ pub(super) struct Shared {
 #[derive(Debug)]
 pub(super) struct State {
     waiting: Queue<Waiting>,
-    /// One for each busy thread.
+    /// The running computations, one per busy thread.
     running: Vec<Arc<Ticket>>,
     pub(super) forecast: Forecast,
     idle: usize,
@@ -67,14 +67,14 @@ impl core::fmt::Debug for Waiting {
     }
 }
 
-/// A computation may descend ten thousand levels, of about 1 kB each. Only what is used takes memory.
+/// A computation may recurse ten thousand levels deep, of about 1 kB each. Only used pages take memory.
 const STACK_BYTES: usize = 16 << 20;
 
 impl Pool {
-    /// `threads` threads (one at the least), and room for `queue` computations that wait for one.
+    /// `threads` threads (at least one), and a queue of `queue` places.
     ///
     /// # Errors
-    /// If the system gives no thread.
+    /// If a thread can't be started.
     pub fn new(threads: usize, queue: usize) -> io::Result<Self> {
         let threads = threads.max(1);
         let forecast = Forecast::default();
@@ -90,8 +90,7 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Hand in a computation whose request arrived at `arrival` and may take `time_limit` from then. Those of different
-    /// owners take turns.
+    /// Submit a computation whose request arrived at `arrival` with this time limit. Owners take turns.
     ///
     /// # Errors
     /// [`Refused`] if there is no room, or no time.
@@ -106,15 +105,14 @@ impl Pool {
         let (sender, reply) = oneshot::channel();
         let own = Arc::clone(&ticket);
         let run = Box::new(move || {
-            // Nobody may be left to hear it.
+            // The caller may have gone.
             let _ = sender.send(own.run(computation));
         });
         self.shared.enqueue(owner, Waiting { ticket: Arc::clone(&ticket), run })?;
         Ok(Pending::new(ticket, reply))
     }
 
-    /// Would a computation be taken that came now and may still take `left`? Answered at once, and cheaper than the
-    /// computation is made.
+    /// Admission check for a computation with this much time left. Cheaper than making the computation.
     ///
     /// # Errors
     /// [`Refused`] if there is no room, or no time.
@@ -122,40 +120,40 @@ impl Pool {
         self.shared.room(&mut self.shared.lock(), owner, left)
     }
 
-    /// True if every thread lives and computations are taken.
+    /// True if every thread is alive and the pool is open.
     pub fn ready(&self) -> bool {
         self.shared.lock().open && lock(&self.threads).iter().all(|thread| !thread.is_finished())
     }
 
-    /// The number of threads that wait for a computation.
+    /// The number of idle threads.
     pub fn idle(&self) -> usize {
         self.shared.lock().idle
     }
 
-    /// The number of threads that compute.
+    /// The number of busy threads.
     pub fn busy(&self) -> usize {
         self.shared.lock().running.len()
     }
 
-    /// Everything that runs delivers the best so far, and nothing that waits begins.
+    /// Running computations deliver the best so far, and queued ones never start.
     pub fn finish_soon(&self) {
         let state = self.shared.lock();
         let waiting = state.waiting.iter().map(|waiting| &waiting.ticket);
         state.running.iter().chain(waiting).for_each(|ticket| ticket.finish_soon());
     }
 
-    /// Take no more computations.
+    /// Accept no more computations.
     pub fn close(&self) {
         self.shared.lock().open = false;
         self.shared.wake.notify_all();
     }
 
-    /// Take no more computations, and wait until those that were taken have come to their end. Blocks.
+    /// Close the pool and wait until all accepted computations have ended. Blocks.
     pub fn join(&self) {
         self.close();
         let threads = core::mem::take(&mut *lock(&self.threads));
         for thread in threads {
-            // A thread ends by a panic only if the process is about to.
+            // A thread panics only if the process is about to end.
             let _ = thread.join();
         }
     }
@@ -191,7 +189,7 @@ impl Shared {
         if state.waiting.len() >= self.queue + state.idle {
             return Err(Refused::Full);
         }
-        // A free thread begins at once, whatever the past says.
+        // A free thread begins at once, whatever the forecast.
         if !state.thread_free()
             && let Some(wait) = state.wait(owner, self.threads)
             && wait >= left
@@ -215,8 +213,8 @@ impl Shared {
         }
     }
 
-    /// The next computation; `None` once the pool is closed and its queue empty. The calling thread counts as idle until
-    /// then.
+    /// The next computation; `None` once the pool is closed and its queue empty. Meanwhile the calling thread counts as
+    /// idle.
     fn next(&self) -> Option<Waiting> {
         let state = self.lock();
         let wait = |state: &mut State| state.waiting.len() == 0 && state.open;
@@ -229,19 +227,19 @@ impl Shared {
 }
 
 impl State {
-    /// True if a thread is left for a newcomer, once each idle one has taken one of those that wait.
+    /// True if an idle thread remains after each queued computation has got one.
     fn thread_free(&self) -> bool {
         self.waiting.len() < self.idle
     }
 
-    /// How long the owner's next computation would wait for a thread, as far as anything is known.
+    /// How long the owner's next computation would wait for a thread; `None` if there is no forecast.
     fn wait(&self, owner: &str, threads: usize) -> Option<Duration> {
         let ahead = self.waiting.ahead_of(owner).map(|waiting| &waiting.ticket);
         self.forecast.wait(threads, self.running.iter().chain(ahead).map(|ticket| ticket.left()))
     }
 }
 
-/// No invariant of what these locks guard can be broken by a panic.
+/// A panic can't break an invariant of the locked data.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,12 +1,12 @@
-//! Who waits, and who goes next: owners in turn, each owner's own in the order in which they came.
+//! Fair queuing: owners take turns, and each owner's items keep their order.
 //!
-//! What comes takes a turn, a number, and the least goes first. An owner's next turn is one after the last that waits for
-//! it; an owner for whom nothing waits joins at the least that waits. So whoever hands in a hundred at once takes a hundred
-//! turns, and whoever comes then with one is the next but one. Nothing is remembered of owners for whom nothing waits.
+//! Each item gets a turn, a number; the least goes first. An owner's next turn is one after its last queued turn; an
+//! owner with nothing queued starts at the least queued turn. So an owner that submits a hundred items takes a hundred
+//! turns, and a single item of another goes second. Owners with nothing queued are forgotten.
 
 use std::collections::BTreeMap;
 
-/// What waits. Those of one turn go in the order in which they came.
+/// The queue. Items of one turn go in order of arrival.
 #[derive(Debug)]
 pub(super) struct Queue<T> {
     entries: BTreeMap<(u64, u64), Entry<T>>,
@@ -38,7 +38,7 @@ impl<T> Queue<T> {
         self.entries.pop_first().map(|(_, entry)| entry.item)
     }
 
-    /// Those that would go before the owner's next one, as far as they are here by now.
+    /// The queued items that go before the owner's next one.
     pub(super) fn ahead_of(&self, owner: &str) -> impl Iterator<Item = &T> {
         self.entries.range(..=(self.turn(owner), u64::MAX)).map(|(_, entry)| &entry.item)
     }
@@ -51,7 +51,7 @@ impl<T> Queue<T> {
         self.entries.retain(|_, entry| keep(&entry.item));
     }
 
-    /// The turn of the owner's next one.
+    /// The owner's next turn.
     fn turn(&self, owner: &str) -> u64 {
         let own = self.entries.iter().rev().find(|(_, entry)| &*entry.owner == owner);
         let least = self.entries.keys().next();
@@ -67,7 +67,7 @@ impl<T> Queue<T> {
 mod tests {
     use super::*;
 
-    /// The order in which what is pushed goes: an owner's letter and a number each.
+    /// The order in which the pushed items go: an owner's letter and a number each.
     fn drained(queue: &mut Queue<&'static str>) -> String {
         core::iter::from_fn(|| queue.pop()).collect::<Vec<_>>().join(" ")
     }

@@ -94,7 +94,7 @@ async fn a_closed_pool_finishes_what_it_has() {
     assert_eq!((first.outcome().await, second.outcome().await), (Outcome::Done(()), Outcome::Done(7)));
 }
 
-/// A computation that lasts until the sender is dropped.
+/// A computation that runs until the sender is dropped.
 fn held(pool: &Pool) -> (std::sync::mpsc::Sender<()>, super::Pending<bool>) {
     let (release, held) = channel::<()>();
     let pending = pool.submit(ANYBODY, Instant::now(), LONG, move |_| held.recv().is_ok()).unwrap();
@@ -102,7 +102,7 @@ fn held(pool: &Pool) -> (std::sync::mpsc::Sender<()>, super::Pending<bool>) {
     (release, pending)
 }
 
-/// So long have computations taken of late.
+/// Recent computations have taken this long.
 fn have_taken(pool: &Pool, time: Duration) {
     (0..1000).for_each(|_| pool.shared.lock().forecast.note(time));
 }
@@ -132,11 +132,11 @@ async fn what_can_not_start_in_time_is_refused_at_once() {
     let minute = Duration::from_secs(60);
     let ask = |pool: &Pool, limit| pool.submit(ANYBODY, Instant::now(), limit, |_| 7);
     let (release, _running) = held(&pool);
-    // Nothing has ended yet, so nothing is known.
+    // Nothing has ended yet, so there is no forecast.
     let hopeful = ask(&pool, Duration::from_secs(1)).unwrap();
     have_taken(&pool, minute);
     let Err(Refused::TooLate { retry_after }) = ask(&pool, Duration::from_secs(30)) else { panic!("taken") };
-    // A minute for what runs, and no more than its own second for what waits.
+    // A minute for the running one, and at most its own second for the queued one.
     assert!(retry_after > minute && retry_after <= minute + Duration::from_secs(1), "{retry_after:?}");
     assert!(matches!(pool.room(ANYBODY, Duration::from_secs(30)), Err(Refused::TooLate { .. })));
     assert_eq!(pool.room(ANYBODY, LONG), Ok(()), "to ask takes no room");
@@ -146,7 +146,7 @@ async fn what_can_not_start_in_time_is_refused_at_once() {
     drop(release);
     assert_eq!(patient.outcome().await, Outcome::Done(7));
     wait_until(|| pool.idle() == 1);
-    // However long the last ones took, an idle thread begins at once.
+    // Whatever the forecast, an idle thread begins at once.
     assert!(ask(&pool, Duration::from_secs(30)).is_ok());
     drop(hopeful);
 }

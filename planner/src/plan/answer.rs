@@ -1,4 +1,4 @@
-//! What the planner says: a verdict with its plan, its proof, or the bound that was reached.
+//! The planner's answer: a verdict with its plan, its proof, or the bound that was reached.
 
 use core::time::Duration;
 
@@ -7,19 +7,19 @@ use crate::geometry::Grasp;
 use crate::placement::Relocation;
 use crate::scene::ObjectIndex;
 
-/// The fewest relocations that any plan needs, as far as it is proven.
+/// A lower bound on the relocations of every plan, with its proof.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LowerBound {
     /// No plan has fewer relocations.
     pub cost: usize,
-    /// The proof: of each set every plan moves at least one, and no fewer than `cost` objects meet all sets.
+    /// The proof: every plan moves at least one member of each set, and hitting all sets takes at least `cost` objects.
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 
-/// Why nothing frees the target.
+/// The proof that nothing frees the target.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deadlock {
-    /// The greatest lock, in index order; fixed objects where they block a member.
+    /// The greatest lock, in index order, with fixed objects that block a member.
     pub blocked: Vec<ObjectIndex>,
     /// An inclusion-minimal lock within it, in index order.
     pub core: Vec<ObjectIndex>,
@@ -28,31 +28,31 @@ pub struct Deadlock {
 /// A checked plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// In order of execution; empty where the target is graspable at once.
+    /// In order of execution; empty if the target is graspable at once.
     pub relocations: Vec<Relocation>,
-    /// How the target is grasped in the end.
+    /// The final grasp of the target.
     pub target_grasp: Grasp,
-    /// The proven bound; the plan is optimal where it has as many relocations. `None` where nothing is proven.
+    /// The proven bound; the plan is optimal if it has as many relocations. `None` if nothing is proven.
     pub bound: Option<LowerBound>,
 }
 
-/// What is known where no plan is served.
+/// The results without a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unplanned {
-    /// The proven bound; `None` where nothing is proven.
+    /// The proven bound; `None` if nothing is proven.
     pub bound: Option<LowerBound>,
-    /// The objects of the best known derivation, in order; `None` where none is known.
+    /// The objects of the best known derivation, in order; `None` if there is none.
     pub needed: Option<Vec<ObjectIndex>>,
 }
 
-/// The verdict with all that belongs to it.
+/// The verdict with its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
     /// The target can be grasped as the table stands.
     Graspable(Grasp),
     /// This plan frees the target.
     Relocate(Plan),
-    /// No sequence of pick-and-place can ever free the target. Without its proof only by the paper's methods.
+    /// No sequence of pick-and-place frees the target. Without a proof only by the paper's methods.
     Deadlock(Option<Deadlock>),
     /// Effort spent or places exhausted without a checked plan; not a proof.
     NoSpace(Unplanned),
@@ -69,18 +69,18 @@ pub struct Statistics {
     pub search: Duration,
     /// Places.
     pub placement: Duration,
-    /// The independent check; for the paper's methods our own search too, which judges them.
+    /// The independent check; for the paper's methods also our own search, which judges them.
     pub check: Duration,
 }
 
 /// The planner's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// What was found.
+    /// The verdict.
     pub verdict: Verdict,
-    /// What is worth knowing about an answer by the paper's methods.
+    /// Warnings about an answer by the paper's methods.
     pub warnings: Vec<Warning>,
-    /// Not part of the answer's identity: differs from run to run.
+    /// Not part of the answer's identity: it differs between runs.
     pub statistics: Statistics,
 }
 
@@ -105,12 +105,12 @@ impl Plan {
 }
 
 impl Answer {
-    /// True where the checker refuses a part of it: only answers by the paper's methods are served so.
+    /// True if the checker refuses a part of it: only answers by the paper's methods are served then.
     pub fn faulty(&self) -> bool {
         self.warnings.iter().any(|warning| matches!(warning, Warning::Faulty(_)))
     }
 
-    /// True if the plan holds and none has fewer relocations; `None` where there is no plan or nothing is proven.
+    /// True if the plan holds and no plan has fewer relocations; `None` if there is no plan or nothing is proven.
     pub fn optimal(&self) -> Option<bool> {
         match &self.verdict {
             _ if self.faulty() => None,
@@ -121,7 +121,7 @@ impl Answer {
     }
 }
 
-/// Nothing but the bound that needs no proof.
+/// The trivial bound, which needs no proof.
 impl Default for Unplanned {
     fn default() -> Self {
         Self { bound: Some(LowerBound::default()), needed: None }
@@ -129,7 +129,7 @@ impl Default for Unplanned {
 }
 
 impl Verdict {
-    /// Its name, as it is written everywhere.
+    /// Its name in answers and logs.
     pub fn as_str(&self) -> &'static str {
         match self {
             Self::Graspable(_) => "graspable",
@@ -140,7 +140,7 @@ impl Verdict {
         }
     }
 
-    /// The bound, where the verdict has one to prove.
+    /// The bound, if the verdict has one to prove.
     pub(super) fn bound_mut(&mut self) -> Option<&mut LowerBound> {
         match self {
             Self::Relocate(plan) => plan.bound.as_mut(),

@@ -1,4 +1,4 @@
-//! An answer as anybody may state it: what the checker reads. Ids are the caller's own words and may name nothing.
+//! A stated answer, the checker's input. Its ids may name no object.
 
 use nalgebra::Point2;
 
@@ -16,9 +16,9 @@ pub struct ClaimedGrasp {
 pub struct ClaimedRelocation {
     /// The id of the object moved.
     pub object: String,
-    /// Where it is said to stand before.
+    /// Its stated place before.
     pub from: Option<Point2<f64>>,
-    /// Where it goes.
+    /// Its stated place after.
     pub to: Point2<f64>,
     /// How it is picked.
     pub grasp: ClaimedGrasp,
@@ -52,25 +52,25 @@ pub struct ClaimedDeadlock {
     pub core: Vec<String>,
 }
 
-/// A stated answer. What is `None` is not stated and so not checked.
+/// A stated answer. Parts that are `None` are not checked.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claim {
     /// The verdict.
     pub verdict: Option<VerdictName>,
     /// The steps, in order.
     pub relocations: Option<Vec<ClaimedRelocation>>,
-    /// How the target is grasped in the end.
+    /// The final grasp of the target.
     pub target_grasp: Option<ClaimedGrasp>,
     /// The count of relocations.
     pub cost: Option<u64>,
-    /// No plan is said to have fewer relocations.
+    /// The stated lower bound on the relocations of every plan.
     pub lower_bound: Option<u64>,
-    /// The plan is said to be as short as any.
+    /// The stated optimality of the plan.
     pub optimal: Option<bool>,
     /// The proof of the bound.
     pub landmarks: Option<Vec<Vec<String>>>,
     /// The proof of a deadlock.
     pub deadlock: Option<ClaimedDeadlock>,
-    /// The best known derivation where there is no plan: ids, in order.
+    /// The best known derivation if there is no plan: ids, in order.
     pub needed: Option<Vec<String>>,
 }

@@ -1,4 +1,4 @@
-//! Nothing leaves unchecked.
+//! Every answer is checked before it is served.
 
 use super::answer::{Answer, Statistics, Unplanned, Verdict};
 use super::check::{Checker, Fault, FaultCode, MAX_FAULTS, Report};
@@ -8,23 +8,23 @@ use crate::budget::Budget;
 use crate::knowledge::NoBase;
 use crate::scene::Scene;
 
-/// The planner failed.
+/// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum PlanError {
     /// The checker refused the planner's own answer: a bug. The answer is not served.
     #[error("the answer did not pass its check")]
     Refused(Report),
-    /// The objects stand too dense: their knowledge base would be larger than the limit
+    /// The objects are too dense: their knowledge base would exceed the limit
     /// ([`MAX_BASE_SIZE`](crate::knowledge::MAX_BASE_SIZE)).
     #[error("{}", NoBase::TooLarge)]
     TooDense,
 }
 
-/// The verdict as far as the checker, that of the scene with any target, confirms it. What it could not confirm in time is not
-/// claimed.
+/// The part of the verdict that the checker confirms. Its scene may have any target. Parts not confirmed in time are
+/// dropped.
 ///
 /// # Errors
-/// [`PlanError::Refused`] if anything in it does not hold.
+/// [`PlanError::Refused`] if any part does not hold.
 pub(super) fn confirm(
     checker: &mut Checker<'_>,
     scene: &Scene,
@@ -45,8 +45,8 @@ pub(super) fn confirm(
     Ok(verdict)
 }
 
-/// The same for an answer by the paper's methods: a step that does not hold becomes a warning, a proof that does not hold
-/// is refused, for proofs are our own. `setting` is to blame for a deadlock that can't be confirmed.
+/// The same for an answer by the paper's methods: a step that does not hold becomes a warning. A proof that does not
+/// hold is refused, since proofs are our own. `setting` is named by a deadlock that can't be confirmed.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if a landmark or a lock does not hold.
@@ -67,7 +67,7 @@ pub(super) fn confirm_unproven(
     }
     let mut verdict = proven_part(verdict, &report);
     let seen = |code| report.faults.iter().any(|fault| fault.code == code);
-    // A list of faults that was cut off may have lost those of the proofs.
+    // A list of faults that was cut off may lack those of the proofs.
     let cut = report.faults.len() >= MAX_FAULTS;
     match &mut verdict {
         Verdict::Relocate(plan) if cut => plan.bound = None,
@@ -90,17 +90,18 @@ pub(super) fn confirm_unproven(
 fn checked(checker: &mut Checker<'_>, scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> (Verdict, Report) {
     let answer = Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() };
     let mut claim = Claim::of(scene, &answer);
-    // A search that was cut off may have landmarks that prove more than it had time to see: not a fault, a better bound.
+    // A search that was cut off may have landmarks that prove more than it could compute: not a fault, but a better
+    // bound.
     claim.optimal.take_if(|optimal| !*optimal);
     let report = checker.check_for(scene, &claim, budget);
     (answer.verdict, report)
 }
 
-/// The verdict with no more of a bound, and no more needed objects, than could be confirmed.
+/// The verdict with the confirmed part of the bound, and the needed objects only if confirmed.
 fn proven_part(mut verdict: Verdict, report: &Report) -> Verdict {
     let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
     if let Some(bound) = verdict.bound_mut() {
-        // What was not tried in time is not stated, even where the rest proves the bound.
+        // Landmarks that were not checked in time are dropped, even if the rest proves the bound.
         if report.interrupted {
             bound.landmarks.clone_from(&report.sound_landmarks);
         }
@@ -114,7 +115,7 @@ fn proven_part(mut verdict: Verdict, report: &Report) -> Verdict {
     verdict
 }
 
-/// True if the code says that a bound or a lock does not hold.
+/// True if the code refutes a bound or a lock.
 fn is_of_a_proof(code: FaultCode) -> bool {
     matches!(
         code,
@@ -131,7 +132,7 @@ fn is_of_a_proof(code: FaultCode) -> bool {
     )
 }
 
-/// True if the code says that time ran out, not that anything is wrong.
+/// True if the code means that time ran out, not that the answer is wrong.
 fn is_late(code: FaultCode) -> bool {
     matches!(
         code,
@@ -151,7 +152,7 @@ mod tests {
 
     #[test]
     fn what_the_search_knows_but_cannot_show_is_not_served() {
-        // Two fingers, and four plates round the target: those on two opposite sides have to go.
+        // Two fingers, and four plates round the target: two on opposite sides must be moved.
         let scene = TestScene::new(2)
             .finger(0.04, 0.05)
             .disc("cup", 1.0, 1.0, 0.03)
@@ -168,7 +169,7 @@ mod tests {
             *verdict.bound_mut().unwrap() = bound;
             confirm(&mut Checker::new(&scene), &scene, verdict, &Budget::unlimited())
         };
-        // As if one landmark were missing without which the bound can't be shown.
+        // Without one landmark that the bound needs.
         let landmarks = proof.landmarks[..1].to_vec();
         let known = LeastSet { bound: 2, proven: 1, landmarks: landmarks.clone(), ..LeastSet::default() };
         let verdict = served(LowerBound::from(&known)).unwrap();

@@ -1,4 +1,4 @@
-//! Sets from the search meet places on the table, in order of cost.
+//! Alternates relocation sets with placement, cheapest first.
 
 use crate::budget::{Budget, Interrupted};
 use crate::geometry::Shadow;
@@ -10,18 +10,18 @@ use crate::search::{Alternatives, Derivation};
 /// The effort for one answer, reached only where space is very short: half a second, or some seconds where a large disc
 /// stands among thousands of small ones.
 const MAX_EFFORT: u32 = 1_000_000;
-/// The effort for one set, so that others get their turn.
+/// The effort for one set, so that other sets get their turn.
 const MAX_EFFORT_PER_SET: u32 = 100_000;
-/// What each relocation adds to both: a long plan has many places to find, each among those found before.
+/// Extra effort per relocation, for both limits: a long plan needs many places, each found among the earlier ones.
 const EFFORT_PER_STEP: u32 = 10_000;
-/// How many more relocations than the least set has are tried.
+/// The most relocations tried beyond the size of the least set.
 const MAX_EXTRA: usize = 3;
-/// How many sets are tried.
+/// The most sets tried.
 const MAX_SETS: usize = 32;
-/// The share of the time in which other sets are sought.
+/// The share of the time in which further sets are searched.
 const SETS_SHARE: f64 = 0.5;
 
-/// What is asked.
+/// The placement problem.
 pub(super) struct Question<'a> {
     pub(super) scene: &'a Scene,
     pub(super) base: &'a KnowledgeBase,
@@ -29,8 +29,8 @@ pub(super) struct Question<'a> {
     pub(super) objective: Objective,
 }
 
-/// The cheapest arrangement found: least sets first, then larger ones and extra moves together. `None` if the effort was
-/// spent or the candidates exhausted.
+/// The cheapest arrangement found: least sets first, then larger ones and extra moves together. `None` once the effort
+/// is spent or the candidates are exhausted.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -54,32 +54,32 @@ pub(super) fn arrange_least(
     .arrange()
 }
 
-/// Sets as they come, and how far they were tried.
+/// The sets so far, and how far they were tried.
 struct Coupling<'q, M> {
     question: &'q Question<'q>,
     budget: &'q Budget<'q>,
     /// The size of the least set.
     cheapest: usize,
-    /// Gives the next set, no smaller than any before. It may be asked again after it was interrupted.
+    /// The next set, no smaller than any before. After an interruption it may be called again.
     more: M,
-    /// A set whose turn has not come.
+    /// A set kept for a later cost.
     next: Option<Derivation>,
     tried: Vec<Vec<ObjectIndex>>,
     effort: Effort,
 }
 
-/// How a round ended.
+/// The end of a round.
 enum Round {
     Found(Arrangement),
     /// There are no more sets, or the effort is spent.
     Nothing,
-    /// The budget for sets ended.
+    /// The time for sets ended.
     Cut,
 }
 
 impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<'_, M> {
-    /// Another set may be long in coming. So half of the time is for sets and the rest for extra moves on those that are
-    /// known; if that does not take it all, there is time for more sets.
+    /// The next set may take long to find. So half of the time is for sets and the rest for extra moves on known sets;
+    /// time left over is for more sets.
     fn arrange(mut self) -> Result<Option<Arrangement>, Interrupted> {
         for for_sets in [self.budget.share(SETS_SHARE), *self.budget] {
             match self.round(&for_sets)? {
@@ -91,7 +91,7 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
         Err(Interrupted)
     }
 
-    /// By cost: first each new set as it is, then those that came in this round before it, with extra moves.
+    /// In order of cost: each new set as it is, then the earlier sets of this round with extra moves.
     fn round(&mut self, for_sets: &Budget<'_>) -> Result<Round, Interrupted> {
         let earlier = self.tried.len();
         let mut cut = self.next.is_none() && self.fetch(for_sets).is_err();
@@ -128,8 +128,8 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
     }
 }
 
-/// One set with as many extra moves as the cost allows. Places that are best by the objective may all lead nowhere where
-/// those that are best by another don't: a worse place is better than one more relocation.
+/// One set with as many extra moves as the cost allows. If the places that are best by the objective lead nowhere,
+/// those that are best by another one are tried: a worse place is better than one more relocation.
 fn attempt(
     question: &Question<'_>,
     set: &[ObjectIndex],
@@ -150,7 +150,7 @@ fn attempt(
     Ok(None)
 }
 
-/// One set, without alternatives: for a search that ran out of time with a derivation in hand.
+/// One set without alternatives, for a search that ran out of time with a derivation.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -177,7 +177,7 @@ mod tests {
     use crate::knowledge::{complete, swept_finger_options};
     use crate::scene::scenes::TestScene;
 
-    /// A clock that goes on by 1 ms whenever it is asked.
+    /// A clock that advances by 1 ms per look.
     #[derive(Default)]
     struct Ticking(Cell<u64>);
 
@@ -192,8 +192,8 @@ mod tests {
         }
     }
 
-    /// To grasp the cup `east` or `west` has to go, but on this table there is a place for one of them only once the other
-    /// one has been moved too. `coming` gives the sets, and `None` for one that takes all the time there is for sets.
+    /// To grasp the cup, `east` or `west` must move, but either has a place only once the other has moved too. `coming`
+    /// lists the sets; `None` stands for one that takes all the time for sets.
     fn arranged(coming: &[Option<&[usize]>]) -> Result<Option<Arrangement>, Interrupted> {
         let scene = TestScene::new(4)
             .table(0.135_162, 0.071_054)
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn time_that_extra_moves_leave_is_for_more_sets() {
-        // No extra move helps where nothing is to be moved.
+        // Extra moves don't help a set without relocations.
         assert_eq!(cost(arranged(&[Some(&[])])), None);
         assert_eq!(cost(arranged(&[Some(&[]), None, Some(&[2, 1])])), Some(2));
         assert_eq!(arranged(&[Some(&[]), None, None]), Err(Interrupted));

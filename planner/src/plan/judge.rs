@@ -1,7 +1,7 @@
-//! What our own methods have to say of an answer by the paper's.
+//! Judges an answer of the paper's methods by our own.
 //!
-//! The exact search runs twice at the most: on the base that the paper's search had, to judge the search, and on the swept
-//! finger's, to prove the bound or the deadlock. Where time runs out, less is said.
+//! The exact search runs at most twice: on the base of the paper's search, to judge the search, and on the swept
+//! finger's base, to prove the bound or the deadlock. If time runs out, fewer warnings result.
 
 use super::answer::{Deadlock, LowerBound, Verdict};
 use super::settings::{GraspModel, SearchMethod, Settings};
@@ -14,10 +14,10 @@ use crate::paper::tangent_angles;
 use crate::scene::Scene;
 use crate::search::{Derivation, SILENT};
 
-/// The share of the time that is left for this; the rest is the checker's.
+/// The share of the remaining time for this; the rest is the checker's.
 const SHARE: f64 = 0.7;
 
-/// The verdict with what is proven for the swept finger, and warnings for what is wrong with it.
+/// The verdict with its proof for the swept finger, and warnings about its faults.
 pub(super) fn judge(
     scene: &Scene,
     settings: &Settings,
@@ -30,7 +30,7 @@ pub(super) fn judge(
     let sectors = settings.grasp_model == GraspModel::Sector;
     if sectors {
         let base = sought.as_ref().map(|(base, _)| base);
-        // Not counted to the end is not counted.
+        // An incomplete count is not reported.
         if let Ok(pairs @ 1..) = count_tangent_angles(scene, base, &budget) {
             warnings.push(Warning::TangentAngle { pairs });
         }
@@ -58,12 +58,12 @@ pub(super) fn judge(
     verdict
 }
 
-/// The setting to which a deadlock that is none is due.
+/// The setting that explains an unproven deadlock.
 pub(super) fn unproven_by(settings: &Settings) -> &'static str {
     if settings.grasp_model == GraspModel::Sector { "grasp_model" } else { "search" }
 }
 
-/// Of the grasps that knowledge was asked for.
+/// Counts only among the grasps that the search needed.
 fn count_tangent_angles(
     scene: &Scene,
     base: Option<&KnowledgeBase>,
@@ -74,7 +74,7 @@ fn count_tangent_angles(
     scene.indices().filter(|object| asked(*object)).map(pairs).sum()
 }
 
-/// What the exact search has against the paper's, on one base. It need not have come to its end: a derivation is enough.
+/// The exact search's objection to the paper's search on the same base. A derivation is enough; it need not have ended.
 fn disagreement(sought: &Sought, exact: &Sought) -> Option<Warning> {
     let (Sought::Least(known) | Sought::Best(known)) = exact else { return None };
     let enough = known.derivation.order.len();
@@ -87,13 +87,13 @@ fn disagreement(sought: &Sought, exact: &Sought) -> Option<Warning> {
     }
 }
 
-/// What is known of the target by the swept finger.
+/// The swept finger's result for the target.
 enum Opinion {
-    /// No plan has fewer relocations than the bound, and the derivation frees the target, places apart.
+    /// No plan has fewer relocations than the bound, and the derivation frees the target, places ignored.
     Bound { bound: LowerBound, known: Derivation },
-    /// Nothing frees it.
+    /// A deadlock.
     Deadlock(Deadlock),
-    /// There is no base that is not too large.
+    /// Its base would be too large.
     TooDense,
     /// Time ran out.
     None,

@@ -1,4 +1,4 @@
-//! What is known of each object before any search: its shadows and options.
+//! Knowledge of each object before any search: its shadows and options.
 
 use super::settings::GraspModel;
 use crate::budget::Budget;
@@ -10,29 +10,29 @@ use crate::scene::{ObjectIndex, Scene};
 /// An option with the yaws that it frees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownOption {
-    /// All of these have to go, in index order; empty if the object is graspable now.
+    /// All of these must be moved, in index order; empty if the object is graspable now.
     pub members: Vec<ObjectIndex>,
-    /// The yaws that are free once they have gone, rad, as arcs within [0, 2π/k]; one that runs over 0 is two.
+    /// The yaws that are free after that, rad, as arcs within [0, 2π/k]; one that runs over 0 is two.
     pub free: Vec<Arc>,
 }
 
-/// What is known of one object.
+/// The knowledge of one object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Known {
     /// The object.
     pub object: ObjectIndex,
-    /// Its options, none of which holds a fixed object; none at all for a fixed object.
+    /// Its options, none with a fixed object; empty for a fixed object.
     pub options: Vec<KnownOption>,
     /// The obstacles that block it at some yaw; none for a fixed object.
     pub shadows: Vec<Blocker>,
-    /// The paper's histogram round it, where its sectors are the grasp model.
+    /// The paper's histogram around it, if its sectors are the grasp model.
     pub histogram: Option<PolarHistogram>,
 }
 
-/// What is known of every object, in index order.
+/// The knowledge of every object, in index order.
 ///
 /// # Errors
-/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+/// [`NoBase`] when the budget ends, or if the objects are too dense.
 pub fn known(scene: &Scene, model: GraspModel, budget: &Budget<'_>) -> Result<Vec<Known>, NoBase> {
     let base = complete(scene, model.options_of(), budget)?;
     let each = scene.indices().map(|object| {
@@ -57,7 +57,7 @@ fn of_object(scene: &Scene, base: &KnowledgeBase, model: GraspModel, object: Obj
     Known { object, options, shadows, histogram }
 }
 
-/// The yaws that no shadow covers but those of `gone`, where the interval is wide enough to count.
+/// The free yaws once the objects `gone` are removed, in intervals wide enough to count.
 fn free_without(scene: &Scene, shadows: &[Blocker], gone: &[ObjectIndex]) -> Vec<Arc> {
     let gripper = scene.gripper();
     let left = shadows.iter().filter(|blocker| !gone.contains(&blocker.object)).map(|blocker| &blocker.shadow);

@@ -1,4 +1,4 @@
-//! Couples knowledge, search and placement, and lets nothing leave unchecked.
+//! Runs knowledge, search, placement and check.
 
 use core::time::Duration;
 
@@ -18,15 +18,15 @@ use crate::placement::Arrangement;
 use crate::scene::Scene;
 use crate::search::{Derivation, Progress, SILENT};
 
-/// The share of the time after which knowledge and search hand over what they have.
+/// The share of the time for knowledge and search.
 const SEARCH_SHARE: f64 = 0.6;
-/// The share of the rest after which placement does; the last part is the checker's.
+/// The share of the rest for placement; the last part is the checker's.
 const PLACEMENT_SHARE: f64 = 0.75;
 
-/// Plan for the scene's target. Every part looks at the budget; where it ends first, the best that is known is served.
+/// Plan for the scene's target. All parts look at the budget; when it ends, the best known answer is returned.
 ///
-/// An answer by the paper's methods is judged by our own afterwards, within the same time: bounds and locks are those of
-/// the swept finger, and what the checker or the exact search has against the answer becomes a warning.
+/// An answer by the paper's methods is then judged by our own, within the same time. Bounds and locks are those of the
+/// swept finger; objections of the checker or the exact search become warnings.
 ///
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if the answer fails its check.
@@ -34,7 +34,7 @@ pub fn plan(scene: &Scene, settings: &Settings, budget: &Budget<'_>) -> Result<A
     plan_reporting(scene, settings, budget, SILENT)
 }
 
-/// [`plan`], telling of the best set and the bound as the search finds them: both unchecked, and places apart.
+/// [`plan`], reporting incumbents and bounds of the search. They are unchecked and ignore places.
 ///
 /// # Errors
 /// As [`plan`].
@@ -66,7 +66,7 @@ struct Planner<'a> {
     progress: Progress<'a>,
     statistics: Statistics,
     warnings: Vec<Warning>,
-    /// What the search said and on which base, for whoever judges it.
+    /// The search's result and its base, for the judge.
     sought: Option<(KnowledgeBase, Sought)>,
 }
 
@@ -135,7 +135,7 @@ impl Planner<'_> {
             (PlacementMethod::Raster(raster), _) => reposition(self.scene, &derivation.order, &raster, model, &budget),
         };
         self.statistics.placement = self.since(started);
-        // Knowledge by another model proves nothing for the swept finger.
+        // Knowledge by another grasp model proves nothing for the swept finger.
         let bound = bound.filter(|_| self.settings.grasp_model == GraspModel::SweptFinger);
         match found {
             Ok(Some(Arrangement { relocations, target_grasp })) => {
@@ -151,13 +151,13 @@ impl Planner<'_> {
     }
 }
 
-/// What places are sought for.
+/// The sets to place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Placing {
-    /// A least set, and others after it.
+    /// A least set, and further sets after it.
     Least,
     /// The best set of a search that was cut off.
     Cut,
-    /// The one sequence that one of the paper's searches gives.
+    /// The one sequence of a search of the paper.
     Sequence,
 }

@@ -1,27 +1,27 @@
-//! What a caller may choose.
+//! The caller's settings.
 
 use crate::geometry::{Shadow, shadow};
 use crate::knowledge::{OptionsOf, swept_finger_options};
 use crate::paper::{Raster, sector_options, sector_shadow};
 use crate::placement::Objective;
 
-/// How to plan.
+/// The settings of a plan.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Settings {
-    /// Which yaws an obstacle blocks.
+    /// The yaws that an obstacle blocks.
     pub grasp_model: GraspModel,
-    /// What has to be moved.
+    /// The method that finds the relocations.
     pub search: SearchMethod,
-    /// Where it goes.
+    /// The method that finds places.
     pub placement: PlacementMethod,
-    /// Which places are best.
+    /// The preferred places.
     pub objective: Objective,
 }
 
-/// Which yaws an obstacle blocks.
+/// The yaws that an obstacle blocks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum GraspModel {
-    /// Exactly those at which a finger meets it.
+    /// Exactly the yaws at which a finger meets it.
     #[default]
     SweptFinger,
     /// The paper's: Eq. 1-4 and 8-10.
@@ -51,7 +51,7 @@ pub enum PlacementMethod {
 }
 
 impl Settings {
-    /// True where every method is our own: such an answer is proven, or it is not served.
+    /// True if every method is our own: such answers are proven or not served.
     pub fn proven(&self) -> bool {
         let Self { grasp_model, search, placement, objective: _ } = self;
         *grasp_model == GraspModel::SweptFinger

@@ -1,4 +1,4 @@
-//! What has to be moved, by the search that was asked for.
+//! Dispatches to the search method in the settings.
 
 use super::answer::LowerBound;
 use super::settings::{GraspModel, SearchMethod};
@@ -8,21 +8,21 @@ use crate::paper::{Conclusion, forward_astar, lobs};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Derivation, LeastSet, Memory, Outcome, Progress, Restriction, SILENT, least_within};
 
-/// How much the paper's searches may keep in memory.
+/// Memory limits of the paper's searches.
 #[derive(Debug, Clone, Copy)]
 pub struct SearchLimits {
     /// The most objects in OPEN, or in one product of premises, of LOBS.
     pub lobs_members: usize,
     /// The most states of A*.
     pub astar_states: usize,
-    /// The most words of all of A*'s sets together, which matters where there are many objects.
+    /// The most words of all sets of A* together; it matters for many objects.
     pub astar_words: usize,
 }
 
-/// For a request: some 20 MB, and some 20 ms to give them back; some 50 MB for a scene of 64 objects.
+/// For a request: some 20 MB, freed in some 20 ms; some 50 MB for a scene of 64 objects.
 const LIMITS: SearchLimits = SearchLimits { lobs_members: 2_000_000, astar_states: 500_000, astar_words: 4_000_000 };
 
-/// What a search says.
+/// The result of a search.
 pub enum Sought {
     /// A least set, with proof.
     Least(LeastSet),
@@ -30,7 +30,7 @@ pub enum Sought {
     Best(LeastSet),
     /// A sequence without proof.
     Sequence(Derivation),
-    /// There is none.
+    /// A deadlock.
     Nothing,
     /// The budget ended.
     TooLate,
@@ -45,7 +45,7 @@ impl From<&LeastSet> for LowerBound {
 }
 
 impl SearchMethod {
-    /// The base that the search needs. The forward search may relocate what has nothing to do with the target.
+    /// The base that the search needs. The forward search may relocate objects unrelated to the target.
     pub(super) fn base(self, scene: &Scene, model: GraspModel, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
         match self {
             Self::Landmarks | Self::Lobs => relevant(scene, scene.target(), model.options_of(), budget),
@@ -54,7 +54,7 @@ impl SearchMethod {
     }
 }
 
-/// Search for what frees the target, within the limits of a request.
+/// Searches for relocations that free the target, within the limits of a request.
 pub(super) fn seek(
     method: SearchMethod,
     base: &KnowledgeBase,
@@ -65,7 +65,7 @@ pub(super) fn seek(
     by_method(method, base, target, &LIMITS, budget, progress)
 }
 
-/// Search for what frees the target.
+/// Searches for relocations that free the target.
 pub fn seek_within(
     method: SearchMethod,
     base: &KnowledgeBase,
@@ -76,7 +76,7 @@ pub fn seek_within(
     by_method(method, base, target, limits, budget, SILENT)
 }
 
-/// The paper's searches have no incumbents to tell of.
+/// The paper's searches report no incumbents.
 fn by_method(
     method: SearchMethod,
     base: &KnowledgeBase,

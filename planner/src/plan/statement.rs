@@ -1,4 +1,4 @@
-//! An answer in the words in which it is checked and served.
+//! Answer → Claim, for the checker.
 
 use super::answer::{Answer, LowerBound, Unplanned, Verdict};
 use super::claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
@@ -13,7 +13,7 @@ impl From<Grasp> for ClaimedGrasp {
 }
 
 impl Claim {
-    /// What an answer says, in the words in which it is served.
+    /// The claim that an answer makes.
     pub fn of(scene: &Scene, answer: &Answer) -> Self {
         let ids =
             |objects: &[ObjectIndex]| objects.iter().map(|&o| scene.object(o).id().to_owned()).collect::<Vec<_>>();

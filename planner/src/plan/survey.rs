@@ -1,4 +1,4 @@
-//! Every movable object as the target: logic only, no places.
+//! Every movable object as the target: logic only, without places.
 
 use super::answer::{Unplanned, Verdict};
 use super::check::Checker;
@@ -10,12 +10,12 @@ use crate::knowledge::{Derivable, KnowledgeBase, NoBase, complete, derivable, sw
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Outcome, Restriction, least};
 
-/// What the survey says of one object as the target.
+/// The verdict for one object as the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurveyVerdict {
     /// Can be grasped as the table stands.
     Graspable,
-    /// Some set of relocations frees it, if places for them are found.
+    /// Some set of relocations frees it, if there are places for them.
     Relocate,
     /// Nothing frees it.
     Deadlock,
@@ -28,15 +28,15 @@ pub enum SurveyVerdict {
 pub struct SurveyEntry {
     /// The object.
     pub object: ObjectIndex,
-    /// What holds for it as the target.
+    /// The verdict for it as the target.
     pub verdict: SurveyVerdict,
     /// The proven bound; `None` for a deadlock.
     pub lower_bound: Option<usize>,
-    /// True if that many relocations suffice, places apart; `None` for a deadlock.
+    /// True if that many relocations suffice, places ignored; `None` for a deadlock.
     pub optimal: Option<bool>,
 }
 
-/// Every movable object as the target, in index order. What the budget leaves undecided is `TimedOut`.
+/// Every movable object as the target, in index order. Objects undecided when the budget ends are `TimedOut`.
 ///
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if an entry's proof fails its check.

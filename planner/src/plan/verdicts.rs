@@ -11,10 +11,10 @@ use crate::knowledge::{
 use crate::placement::grasp_in_place;
 use crate::scene::Scene;
 
-/// The grasp of a target that knowledge says is graspable as the table stands.
+/// The grasp of a target that is graspable as the table stands.
 ///
 /// # Errors
-/// [`PlanError::Refused`] if no yaw is free: then knowledge and geometry contradict each other, a bug.
+/// [`PlanError::Refused`] if no yaw is free: knowledge and geometry contradict each other, a bug.
 pub(super) fn graspable_now(scene: &Scene, model: Shadow) -> Result<Verdict, PlanError> {
     grasp_in_place(scene, scene.target(), model).map(Verdict::Graspable).ok_or_else(|| {
         let fault = Fault {
@@ -27,15 +27,15 @@ pub(super) fn graspable_now(scene: &Scene, model: Shadow) -> Result<Verdict, Pla
     })
 }
 
-/// Why the target, which does not follow from the relevant part of the swept finger's base, does not. That part would show
-/// a lock, but not the greatest.
+/// The deadlock of a target that does not follow from the relevant part of the swept finger's base. Builds the complete
+/// base, since that part shows a lock, but not the greatest.
 pub(super) fn prove_deadlock(scene: &Scene, relevant: &KnowledgeBase, budget: &Budget<'_>) -> Result<Deadlock, NoBase> {
     let base = completed(scene, relevant, swept_finger_options, budget)?;
     let derivable = derivable(&base, |_| false, budget)?;
     Ok(greatest_lock(scene, &base, &derivable, budget)?)
 }
 
-/// Why the target, which does not follow, does not: from the complete base and its derivable objects.
+/// The greatest lock around a target that is not derivable, from the complete base and its derivable objects.
 pub(super) fn greatest_lock(
     scene: &Scene,
     base: &KnowledgeBase,

@@ -1,4 +1,4 @@
-//! What is worth knowing about an answer that one of the paper's methods gave.
+//! Warnings about answers of the paper's methods.
 
 use core::fmt;
 
@@ -8,47 +8,47 @@ use crate::knowledge::NoBase;
 /// One warning.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// Eq. 10 is undefined or too small here and there, and the tangent angle stands in.
+    /// Eq. 10 is undefined or too small for some pairs, and the tangent angle replaces it.
     TangentAngle {
-        /// So many pairs of a grasped object and an obstacle, of the grasps that were looked at.
+        /// The number of such pairs of a grasped object and an obstacle, among the grasps examined.
         pairs: usize,
     },
     /// The search found no sequence, but the exact search on the same base did.
     FalseDeadlock {
-        /// So many relocations are enough, places apart.
+        /// This many relocations suffice, places ignored.
         enough: usize,
     },
     /// The search's sequence is longer than the exact search's on the same base.
     NotOptimal {
-        /// The length of the search's.
+        /// The length of the search's sequence.
         found: usize,
-        /// So many relocations are enough, places apart.
+        /// This many relocations suffice, places ignored.
         enough: usize,
     },
     /// The search reached its limit of memory.
     SearchTooLarge,
     /// The plan is longer than the swept finger needs.
     FewerSuffice {
-        /// By the swept finger so many are enough, places apart.
+        /// This many relocations suffice by the swept finger, places ignored.
         enough: usize,
     },
-    /// The deadlock is not proven for the swept finger: refuted, where it is known how many relocations are enough.
+    /// The deadlock is not proven for the swept finger; refuted if it is known how many relocations suffice.
     UnprovenDeadlock {
-        /// By the swept finger so many relocations are enough, places apart.
+        /// This many relocations suffice by the swept finger, places ignored.
         enough: Option<usize>,
-        /// The setting that makes the difference.
+        /// The setting that causes it.
         setting: &'static str,
     },
     /// The deadlock is not proven for the swept finger, whose knowledge base would be too large.
     DeadlockTooDense {
-        /// The setting that makes the difference.
+        /// The setting that causes it.
         setting: &'static str,
     },
     /// The checker, which judges by the swept finger alone, refuses a part of the plan.
     Faulty(Fault),
 }
 
-/// Whose doing it is: where a pointer into the request leads.
+/// The part of the request a warning points to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause<'a> {
     /// The setting of this name.
@@ -73,7 +73,7 @@ impl Warning {
         }
     }
 
-    /// Where it comes from.
+    /// The part of the request it points to.
     pub fn cause(&self) -> Cause<'_> {
         match self {
             Self::TangentAngle { .. } | Self::FewerSuffice { .. } => Cause::Setting("grasp_model"),

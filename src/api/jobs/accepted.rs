@@ -1,4 +1,4 @@
-//! What is answered where something was accepted that is not done yet.
+//! The 202 answer for accepted jobs.
 
 use axum::Json;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use crate::jobs::JobId;
 
-/// When it is worth looking at a job, s; long-polls and event streams tell earlier.
+/// When to poll a job, s; long polls and event streams report earlier.
 const RETRY_AFTER: &str = "1";
 
-/// 202 with where to look and when.
+/// 202 with `Location` and `Retry-After`.
 pub(super) fn accepted(id: Option<JobId>, body: impl Serialize) -> Response {
     let mut response = (StatusCode::ACCEPTED, [(header::RETRY_AFTER, RETRY_AFTER)], Json(body)).into_response();
     let location = id.and_then(|id| HeaderValue::try_from(format!("/v1/jobs/{id}")).ok());

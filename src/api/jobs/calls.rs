@@ -1,4 +1,4 @@
-//! What the calls about jobs share.
+//! The state that job calls share.
 
 use std::sync::Arc;
 
@@ -9,26 +9,26 @@ use crate::api::running::Running;
 use crate::api::settings::ServerSettings;
 use crate::jobs::CallbackAllow;
 
-/// Requests that may hand in jobs at a time. Their writes stand in one line with those of the workers, a millisecond or two
-/// each: behind many more of them jobs would begin and end late.
+/// Concurrent submissions. Their writes queue with those of the workers, a millisecond or two each: behind many more,
+/// jobs would begin and end late.
 const MAX_SUBMITTING: usize = 32;
 
-/// The store, the workers, and how many requests at a time may do what.
+/// The store, the workers, and the limits on concurrent requests.
 pub(in crate::api) struct JobCalls {
     pub(super) running: Arc<Running>,
     pub(super) bodies: Arc<Bodies>,
-    /// Who may be told of a job's end.
+    /// The allowed receivers of callbacks.
     pub(super) callback_allow: CallbackAllow,
-    /// Room for requests that hand in jobs.
+    /// Permits for submissions.
     pub(super) submitting: Semaphore,
-    /// Room for clients that wait for a job.
+    /// Permits for long polls.
     pub(super) waiting: Semaphore,
-    /// Room for streams of events.
+    /// Permits for event streams.
     pub(super) streams: Arc<Semaphore>,
 }
 
 impl JobCalls {
-    /// Nobody waits yet.
+    /// With all permits free.
     pub(in crate::api) fn new(settings: &ServerSettings, running: Arc<Running>, bodies: Arc<Bodies>) -> Self {
         Self {
             running,

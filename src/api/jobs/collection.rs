@@ -1,4 +1,4 @@
-//! All jobs of a caller: new ones, several at once, and the list.
+//! The collection of a caller's jobs: submit one or several, list.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -24,14 +24,14 @@ use crate::wire::{
     BatchBody, JobBody, JobListBody, JobRequest, JobSceneBody, JobsBody, Problem, RequestLimits, read_batch, read_job,
 };
 
-/// How long a request waits for its turn to hand in jobs: long enough for a fleet that starts at once, and the store takes
-/// hundreds a second.
+/// How long a submission waits for its permit: enough for a fleet that starts at once, since the store takes hundreds a
+/// second.
 const SUBMIT_PATIENCE: Duration = Duration::from_secs(1);
-/// The most jobs of one page of a list, and how many there are where nothing is said: one screen, and a small answer.
+/// The most jobs on a page, and the default: one screen, and a small answer.
 const MAX_PAGE: u64 = 100;
 const DEFAULT_PAGE: u64 = 20;
 
-/// Reads a body that asks for jobs.
+/// Reads a body with job requests.
 type Read = fn(&[u8], &RequestLimits) -> Result<Vec<JobRequest>, Problem>;
 
 /// Plan later
@@ -119,7 +119,7 @@ pub(in crate::api) async fn list(
     let before = parameters.read("cursor", "the `next_cursor` of the page before", |text| text.parse().ok())?;
     let limit = parameters.number("limit", 1..=MAX_PAGE)?.unwrap_or(DEFAULT_PAGE);
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
-    // One more tells whether there are more.
+    // One more, to see whether there is a next page.
     let page = Page { state, before, limit: limit + 1 };
     let listed = calls.running.store.list(&caller.owner, page).await;
     let jobs = listed.map_err(|error| calls.unavailable(&error))?;
@@ -127,7 +127,7 @@ pub(in crate::api) async fn list(
     Ok(Json(JobListBody { jobs: jobs.iter().take(limit).map(Job::body).collect(), next_cursor }))
 }
 
-/// The jobs that a body asks for, kept by the store.
+/// Submits the jobs of a body.
 async fn take(
     calls: &JobCalls,
     owner: &Owner,

@@ -1,4 +1,4 @@
-//! `GET /v1/jobs/{id}/events`: what happens to a job, as it happens.
+//! `GET /v1/jobs/{id}/events`: the events of a job, live.
 
 use core::convert::Infallible;
 use std::collections::VecDeque;
@@ -54,7 +54,7 @@ pub(in crate::api) async fn events(
     let id = job_id(id)?;
     let seen = headers.get(LAST_EVENT_ID).and_then(|value| value.to_str().ok()?.parse().ok());
     let job = find(&calls, &caller.owner, id).await?;
-    // A name that no event of ours has begins anew.
+    // An unknown id starts from the beginning.
     let seen = seen.filter(|seen| *seen <= job.events.len()).unwrap_or_default();
     if job.state.finished() && seen == job.events.len() {
         return Ok(StatusCode::NO_CONTENT.into_response());
@@ -65,16 +65,16 @@ pub(in crate::api) async fn events(
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }
 
-/// One client on its way through a job's events.
+/// One client of a job's event stream.
 struct Listener {
     running: Arc<Running>,
     caller: Caller,
-    /// As it stood when the store was last asked.
+    /// The job when the store was last read.
     job: Job,
     watcher: Watcher,
-    /// How many events it has seen.
+    /// The number of events seen.
     seen: usize,
-    /// What it is to see next.
+    /// Messages to be sent next.
     ready: VecDeque<Message>,
     over: bool,
     _slot: OwnedSemaphorePermit,

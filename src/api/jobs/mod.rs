@@ -1,4 +1,4 @@
-//! `/v1/jobs`: plans that wait for a worker, and for their caller to come back.
+//! `/v1/jobs`: asynchronous planning.
 
 mod accepted;
 mod calls;

@@ -1,4 +1,4 @@
-//! One job: how it stands, and away with it.
+//! One job: show, cancel, delete.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -21,10 +21,10 @@ use crate::jobs::{Cancellation, Job, JobId, JobState, Owner, Removal, Timestamp,
 use crate::metrics::Ended;
 use crate::wire::{JobBody, Problem, ProblemKind};
 
-/// The longest wait, ms: what proxies and clients bear.
+/// The longest long poll, ms: proxies and clients tolerate this much.
 const MAX_WAIT_MS: u64 = 60_000;
-/// How often whoever waits looks without a hint: those of other servers may be lost. Thousands may wait, and each look is
-/// a question to the store.
+/// The poll interval of waiting requests: hints of other servers may be lost. Thousands may wait, and each poll reads
+/// from the store.
 pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
 
 /// How does a job stand?
@@ -127,13 +127,13 @@ pub(in crate::api) async fn forget(
     }
 }
 
-/// A job of the caller's.
+/// A job of the caller.
 pub(super) async fn find(calls: &JobCalls, owner: &Owner, id: JobId) -> Result<Job, Problem> {
     let found = calls.running.store.get(owner, id).await;
     found.map_err(|error| calls.unavailable(&error))?.ok_or_else(no_such_job)
 }
 
-/// The job once it has ended, or as it stands when the time is over, the service shuts down or the key no longer holds.
+/// The job once it has ended; or as it is on time-out, at shutdown, or when the key is no longer in force.
 async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
     let waiting = calls.waiting.try_acquire();

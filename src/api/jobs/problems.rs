@@ -1,4 +1,4 @@
-//! What can be wrong with a request about jobs.
+//! The problems of job calls.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
 
 impl JobCalls {
-    /// As many as may do this already do it.
+    /// The limit on concurrent requests is reached.
     pub(super) fn too_many(&self, detail: &str) -> Problem {
         self.running.metrics.refused(Refusal::Limit);
         Problem::new(ProblemKind::Overloaded, detail)
@@ -27,7 +27,7 @@ impl JobCalls {
         Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
     }
 
-    /// Jobs were not accepted.
+    /// The submission failed.
     pub(super) fn not_accepted(&self, error: SubmitError) -> Problem {
         match error {
             SubmitError::Full => {
@@ -46,17 +46,17 @@ pub(super) fn no_such_job() -> Problem {
     Problem::new(ProblemKind::NotFound, detail).with_title("There is no such job")
 }
 
-/// A job's name in a path.
+/// A job id in a path.
 ///
 /// # Errors
-/// What is no name is the name of no job.
+/// `no_such_job` if it is not an id.
 pub(super) fn job_id(name: Result<Path<String>, PathRejection>) -> Result<JobId, Problem> {
-    // What is no text is no name either.
+    // A path that is not UTF-8 is not an id either.
     let Ok(Path(text)) = name else { return Err(no_such_job()) };
     text.parse().map_err(|_| no_such_job())
 }
 
-/// The problems of every request for something about jobs.
+/// The problems of all job calls.
 pub(super) struct JobProblems;
 
 impl IntoResponses for JobProblems {
@@ -69,7 +69,7 @@ impl IntoResponses for JobProblems {
     }
 }
 
-/// The problems of a request about one job.
+/// The problems of calls for one job.
 pub(super) struct OneJobProblems;
 
 impl IntoResponses for OneJobProblems {

@@ -1,4 +1,4 @@
-//! The part of a path behind the question mark.
+//! Query parameters.
 
 use core::fmt::Display;
 use core::ops::RangeInclusive;
@@ -24,7 +24,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Parameters {
 
 impl Parameters {
     /// # Errors
-    /// A problem if there are others than these, or one twice.
+    /// A problem if one is unknown or repeated.
     pub(super) fn only(self, names: &[&str]) -> Result<Self, Problem> {
         for (at, (name, _)) in self.0.iter().enumerate() {
             if !names.contains(&name.as_str()) {
@@ -40,10 +40,10 @@ impl Parameters {
         Ok(self)
     }
 
-    /// A parameter, read as `read` does.
+    /// A parameter, parsed by `read`.
     ///
     /// # Errors
-    /// A problem that names what was expected.
+    /// A problem that names the expected form.
     pub(super) fn read<T>(
         &self,
         name: &str,
@@ -56,10 +56,10 @@ impl Parameters {
             .ok_or_else(|| invalid(ErrorCode::OutOfRange, format_args!("the parameter '{name}' is to be {expected}")))
     }
 
-    /// A whole number.
+    /// An integer.
     ///
     /// # Errors
-    /// A problem if it is none, or outside the range.
+    /// A problem if it is no integer, or out of range.
     pub(super) fn number(&self, name: &str, range: RangeInclusive<u64>) -> Result<Option<u64>, Problem> {
         let expected = format!("a whole number from {} to {}", range.start(), range.end());
         self.read(name, expected, |text| text.parse().ok().filter(|number| range.contains(number)))

@@ -1,4 +1,4 @@
-//! From a body to jobs that a store can take.
+//! From a request body to new jobs for the store.
 
 use axum::http::{HeaderMap, HeaderName};
 use serde::Serialize;
@@ -14,7 +14,7 @@ const MAX_KEY_LENGTH: usize = 255;
 /// The request's idempotency key.
 ///
 /// # Errors
-/// A problem if it is empty, too long, there twice, or not printable ASCII.
+/// A problem if it is empty, too long, repeated, or not printable ASCII.
 pub(super) fn key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     let mut values = headers.get_all(IDEMPOTENCY_KEY).iter();
     let Some(value) = values.next() else { return Ok(None) };
@@ -28,7 +28,7 @@ pub(super) fn key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     }
 }
 
-/// Whose callbacks stand where in a body.
+/// The place of callback URLs in a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     /// The body is one job.
@@ -37,10 +37,10 @@ pub(super) enum Shape {
     Batch,
 }
 
-/// May whoever is to be told be told? Each callback's URL is written in its one form.
+/// Checks callback URLs against the allow list, and writes them in their canonical form.
 ///
 /// # Errors
-/// A problem that names each that may not.
+/// A problem that names each refused one.
 pub(super) fn check_callbacks(requests: &mut [JobRequest], shape: Shape, allow: &CallbackAllow) -> Result<(), Problem> {
     let mut faults = Vec::new();
     for (position, request) in requests.iter_mut().enumerate() {
@@ -78,9 +78,9 @@ pub(super) fn new_jobs(requests: Vec<JobRequest>, body: &[u8], owner: &Owner, ke
         .collect()
 }
 
-/// The digest of something's one form in JSON.
+/// The digest of the canonical JSON.
 fn digest(body: &impl Serialize) -> String {
-    // What was just read can be written.
+    // A value that was just parsed can be written.
     sha256(&serde_json::to_vec(body).unwrap_or_default())
 }
 

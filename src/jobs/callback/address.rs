@@ -1,4 +1,4 @@
-//! Which addresses are on the public internet.
+//! Tells public IP addresses from special ones.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
@@ -8,14 +8,14 @@ use ipnet::{Ipv4Net, Ipv6Net};
 const SPECIAL_V4: [Ipv4Net; 17] = [
     v4([0, 0, 0, 0], 8),          // "this network"; Linux takes 0.0.0.0 for itself
     v4([10, 0, 0, 0], 8),         // private
-    v4([100, 64, 0, 0], 10),      // behind a carrier's translation
+    v4([100, 64, 0, 0], 10),      // carrier-grade NAT
     v4([127, 0, 0, 0], 8),        // loopback
     v4([168, 63, 129, 16], 32),   // a cloud's host agent, reachable only from its machines
-    v4([169, 254, 0, 0], 16),     // link-local; clouds give credentials away there
+    v4([169, 254, 0, 0], 16),     // link-local; clouds serve credentials there
     v4([172, 16, 0, 0], 12),      // private
     v4([192, 0, 0, 0], 24),       // protocol assignments
     v4([192, 0, 2, 0], 24),       // documentation
-    v4([192, 88, 99, 0], 24),     // relays from 6to4
+    v4([192, 88, 99, 0], 24),     // 6to4 relays
     v4([192, 168, 0, 0], 16),     // private
     v4([198, 18, 0, 0], 15),      // benchmarking
     v4([198, 51, 100, 0], 24),    // documentation
@@ -25,18 +25,18 @@ const SPECIAL_V4: [Ipv4Net; 17] = [
     v4([255, 255, 255, 255], 32), // broadcast
 ];
 
-/// Where public IPv6 lies. Loopback, link-local, unique-local, multicast, discard, mapped and compatible IPv4 and the
+/// The range of public IPv6. Loopback, link-local, unique-local, multicast, discard, mapped and compatible IPv4 and the
 /// local translation prefix lie outside.
 const GLOBAL_V6: Ipv6Net = v6([0x2000, 0], 3);
-/// What of it is not public.
+/// Special addresses within it.
 const SPECIAL_V6: [Ipv6Net; 3] = [
     v6([0x2001, 0], 23),     // protocol assignments: Teredo, benchmarking, ORCHID
     v6([0x2001, 0xdb8], 32), // documentation
     v6([0x3fff, 0], 20),     // documentation
 ];
-/// 6to4: the IPv4 address of the relay stands behind these bits.
+/// 6to4: the IPv4 address of the relay follows this prefix.
 const SIX_TO_FOUR: Ipv6Net = v6([0x2002, 0], 16);
-/// NAT64: the IPv4 address that is really meant stands at the end.
+/// NAT64: the IPv4 address of the destination stands at the end.
 const NAT64: Ipv6Net = v6([0x64, 0xff9b], 96);
 
 const fn v4([a, b, c, d]: [u8; 4], bits: u8) -> Ipv4Net {
@@ -47,7 +47,7 @@ const fn v6([a, b]: [u16; 2], bits: u8) -> Ipv6Net {
     Ipv6Net::new_assert(Ipv6Addr::new(a, b, 0, 0, 0, 0, 0, 0), bits)
 }
 
-/// True if the address is one of the public internet, and leads to no other address that is not.
+/// True if the address is on the public internet and embeds no IPv4 address that is not.
 pub(super) fn is_public(address: IpAddr) -> bool {
     match address.to_canonical() {
         IpAddr::V4(address) => is_public_v4(address),

@@ -1,4 +1,4 @@
-//! Who may be told.
+//! The allow list of callback receivers.
 
 use core::fmt;
 use core::str::FromStr;
@@ -10,10 +10,10 @@ use url::Host;
 use super::address::is_public;
 use super::destination::{CallbackFault, CallbackUrl};
 
-/// Who may be told: nobody unless listed.
+/// The receivers that callbacks may go to: none unless listed.
 ///
-/// A host is listed by its name. What the name resolves to has to be public all the same, unless the address is listed
-/// too: a name's owner doesn't choose which machines of the operator's network are reached.
+/// A host is listed by its name. The addresses of the name must be public too, unless they are listed themselves: the
+/// owner of a name must not choose machines in the operator's network.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CallbackAllow(Vec<Entry>);
 
@@ -23,20 +23,20 @@ enum Entry {
     Name(String),
     /// Every name that ends in this one and is longer.
     Below(String),
-    /// These addresses, by number or by name, public or not.
+    /// These addresses, written as numbers or behind a name, public or not.
     Range(IpNet),
 }
 
 impl CallbackAllow {
-    /// True if nobody is listed: there are no callbacks.
+    /// True if nothing is listed: callbacks are off.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// A URL that somebody wants to be told at.
+    /// The URL of a callback, if it is allowed.
     ///
     /// # Errors
-    /// [`CallbackFault`]. What the host resolves to is left to the moment at which it is called.
+    /// [`CallbackFault`]. The addresses of the host are checked at each call.
     pub fn check(&self, text: &str) -> Result<CallbackUrl, CallbackFault> {
         if self.is_empty() {
             return Err(CallbackFault::Off);
@@ -51,8 +51,8 @@ impl CallbackAllow {
         if listed { Ok(url) } else { Err(CallbackFault::NotListed(url.host().to_owned())) }
     }
 
-    /// What a listed name resolves to. One address that may not be called refuses the name: with those that may, where
-    /// a callback goes would hang on the order in which addresses are tried, and nobody would hear of the others.
+    /// Checks the addresses of a listed name. One forbidden address refuses the name: otherwise the destination would
+    /// depend on the order in which addresses are tried, and the forbidden ones would go unnoticed.
     ///
     /// # Errors
     /// [`CallbackFault::NotPublic`].
@@ -62,7 +62,7 @@ impl CallbackAllow {
     }
 
     fn lists(&self, address: IpAddr) -> bool {
-        // The same machine, whichever way its address is written.
+        // An IPv4-mapped address is the same machine.
         let address = address.to_canonical();
         self.0.iter().any(|entry| entry.covers(address))
     }
@@ -90,7 +90,7 @@ impl Entry {
     }
 }
 
-/// What the operator writes where nobody is to be told.
+/// The entry that turns callbacks off.
 const NOBODY: &str = "none";
 
 impl FromStr for CallbackAllow {
@@ -111,7 +111,7 @@ impl FromStr for Entry {
         let fault = || format!("'{text}' is not a host name, *.name, an address or a range like 10.0.0.0/8");
         let range = text.parse().ok().or_else(|| text.parse().ok().map(|address: IpAddr| IpNet::from(address)));
         if let Some(range) = range {
-            // Addresses are looked up in their canonical form, so that such an entry would never be met.
+            // Addresses are compared in their canonical form, so such an entry would never match.
             let mapped = matches!(range, IpNet::V6(range) if range.addr().to_ipv4_mapped().is_some());
             return if mapped { Err(format!("'{text}': write it as IPv4")) } else { Ok(Self::Range(range)) };
         }
@@ -121,7 +121,7 @@ impl FromStr for Entry {
             let part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
             label.chars().all(part) && !label.is_empty() && !label.starts_with('-') && !label.ends_with('-')
         };
-        // A name that URLs would hold in another form, such as 10.1, would never be met either.
+        // URLs hold such a name, for example 10.1, in another form, so it would never match either.
         let kept = Host::parse(&name).is_ok_and(|host| host == Host::Domain(name.clone()));
         match (kept && name.split('.').all(sound) && name != NOBODY, below) {
             (false, _) => Err(fault()),

@@ -1,6 +1,6 @@
-//! The client that callbacks and the health check ask with: whom it trusts, and for callbacks the addresses that it may go
-//! to. It connects to what [`AllowedAddresses`] gives and nowhere else, so no second answer can slip in between the check
-//! and the call.
+//! The HTTP client of callbacks and of the health check: the authorities that it trusts, and for callbacks the
+//! addresses that it may call. It connects only to addresses from [`AllowedAddresses`], so no second DNS answer can
+//! slip in between check and call.
 
 use core::error::Error;
 use std::io;
@@ -19,12 +19,12 @@ use super::allow::CallbackAllow;
 /// The addresses of a name.
 pub(super) type Lookup = fn(&str) -> io::Result<Vec<IpAddr>>;
 
-/// Lookups at a time. One that hangs keeps its thread for as long as the system likes, so there must not be many.
+/// Lookups at a time. A lookup that hangs keeps its thread as long as the system likes, so the threads are limited.
 const MAX_LOOKUPS: usize = 32;
 
-/// A client that trusts these authorities, and asks no proxy: one of the environment would be asked about the wrong
-/// machine, or on behalf of somebody who may not be told. reqwest's own default wants certificates of authorities even
-/// where nobody speaks TLS, so every client of ours is built here.
+/// A client that trusts these authorities and uses no proxy: a proxy from the environment would look up the wrong
+/// machine, or call a receiver that is not allowed. The default of reqwest requires root certificates even without TLS,
+/// so all our clients are built here.
 ///
 /// # Panics
 /// Never: ring speaks every version of TLS that rustls asks for.
@@ -34,12 +34,12 @@ pub fn client_builder(roots: RootCertStore) -> ClientBuilder {
     client_builder_with(config.with_root_certificates(roots).with_no_client_auth())
 }
 
-/// A client that speaks TLS in this way, and asks no proxy.
+/// A client with this TLS configuration and no proxy.
 pub(crate) fn client_builder_with(config: ClientConfig) -> ClientBuilder {
     ClientBuilder::new().tls_backend_preconfigured(config).no_proxy()
 }
 
-/// The authorities that this machine trusts; none where it has no files with them.
+/// The authorities that this machine trusts; empty if it has no certificate files.
 pub fn trusted_roots() -> RootCertStore {
     let mut roots = RootCertStore::empty();
     let found = rustls_native_certs::load_native_certs();
@@ -50,7 +50,7 @@ pub fn trusted_roots() -> RootCertStore {
     roots
 }
 
-/// The cause that says something: "connection refused" rather than "error sending request", which also holds the URL.
+/// The root cause: "connection refused" instead of "error sending request", which also holds the URL.
 pub(crate) fn innermost<'a>(error: &'a (dyn Error + 'static)) -> &'a (dyn Error + 'static) {
     let mut cause = error;
     while let Some(source) = cause.source() {
@@ -59,7 +59,7 @@ pub(crate) fn innermost<'a>(error: &'a (dyn Error + 'static)) -> &'a (dyn Error 
     cause
 }
 
-/// Resolves the hosts of callbacks, and refuses what the list does not allow.
+/// Resolves the hosts of callbacks and refuses addresses that the list does not allow.
 pub(super) struct AllowedAddresses {
     allow: Arc<CallbackAllow>,
     lookup: Lookup,
@@ -72,7 +72,7 @@ impl AllowedAddresses {
     }
 }
 
-/// As the system resolves it.
+/// The system's resolver.
 pub(super) fn system(name: &str) -> io::Result<Vec<IpAddr>> {
     Ok((name, 0).to_socket_addrs()?.map(|address| address.ip()).collect())
 }
@@ -92,7 +92,7 @@ impl Resolve for AllowedAddresses {
     }
 }
 
-/// On a thread of its own and not one of the runtime's, which would keep the process from ending while a lookup hangs.
+/// Runs on its own thread: on a thread of the runtime a hanging lookup would keep the process from ending.
 async fn on_a_thread(
     lookup: Lookup,
     name: String,
@@ -101,7 +101,7 @@ async fn on_a_thread(
     let permit = threads.acquire_owned().await?;
     let (done, outcome) = oneshot::channel();
     thread::Builder::new().name("lookup".to_owned()).spawn(move || {
-        // Nobody may be waiting any more.
+        // The caller may have stopped waiting.
         let _ = done.send(lookup(&name));
         drop(permit);
     })?;

@@ -1,4 +1,4 @@
-//! Delivers callbacks: at least once, or gives up after a while.
+//! Delivers callbacks at least once, or gives up after the last try.
 
 use core::fmt;
 use core::time::Duration;
@@ -21,27 +21,28 @@ use crate::jobs::store::{Callback, Delivery, Store};
 use crate::jobs::timestamp::{Timestamp, WallClock};
 use crate::metrics::{CallbackOutcome, Metrics};
 
-/// Tries at a time. Each holds a job with its answer, a few megabytes at the most, and a connection.
+/// Tries at a time. Each holds a job with its answer, a few megabytes at most, and a connection.
 pub(super) const MAX_IN_FLIGHT: usize = 32;
-/// Tries for one callback. With the pauses between them they last over four minutes: a receiver may restart meanwhile.
+/// Tries per callback. With the pauses between them they last over four minutes, so a receiver may restart meanwhile.
 pub(super) const MAX_TRIES: u32 = 8;
-/// How much of a receiver's answer is read, so that it can hand over the few words that it has to say.
+/// The most bytes read of a receiver's answer, so that it can send a short body without an error.
 const MAX_ANSWER_BYTES: usize = 16_384;
 
-/// How long things may take.
+/// Time limits and intervals.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
-    /// A connection. Whoever is there at all is there by then, on a bad line too.
+    /// To connect. Enough for a receiver on a bad line.
     pub(super) connecting: Duration,
     /// A whole try, from resolving the host to the end of the answer.
     pub(super) a_try: Duration,
-    /// Between the first try and the second. It doubles with each try; the last pause, 128 s, is below five minutes.
+    /// Between the first try and the second. It doubles with each try; the last pause is 128 s.
     pub(super) first_pause: Duration,
-    /// Nobody else gets the callback while we try: a try, and time for a slow store to hear what came of it.
+    /// The lease on a callback: one try, and time for a slow store to note the outcome. No other server takes the
+    /// callback meanwhile.
     pub(super) lease: Duration,
-    /// Between two looks at the store. Hints come sooner; pauses between tries are no less exact than this.
+    /// Between two polls of the store. Hints come sooner; retries are exact to this interval.
     pub(super) poll: Duration,
-    /// What tries under way get at the end: enough for a receiver that is about to answer.
+    /// Grace period for tries under way at shutdown: enough for a receiver that is about to answer.
     pub(super) farewell: Duration,
 }
 
@@ -58,10 +59,11 @@ impl Default for Pace {
     }
 }
 
-/// What is said of a job. The same for the same job, and with the job's id: a receiver may hear it more than once.
+/// Makes the body of a callback. It is the same for the same job and holds the job's id, since a receiver may get it
+/// twice.
 pub(super) type Message = fn(&Job) -> Vec<u8>;
 
-/// Tells those who handed jobs in of their ends.
+/// Delivers the callbacks of ended jobs.
 pub struct CallbackDelivery {
     store: Arc<dyn Store>,
     allow: Arc<CallbackAllow>,
@@ -75,13 +77,13 @@ pub struct CallbackDelivery {
 
 /// Why a try failed.
 enum TryFault {
-    /// The list has become shorter since the job was accepted.
+    /// The allow list has become shorter since the job was accepted.
     NotAllowed(CallbackFault),
-    /// The receiver does not answer others either; nothing was sent before this moment.
+    /// The receiver does not answer other callbacks either; nothing was sent before this time.
     Silent(Timestamp),
     /// No answer: not resolved, not reached, not trusted, or too slow.
     NoAnswer(reqwest::Error),
-    /// An answer that says no.
+    /// An error status.
     Answer(StatusCode),
 }
 
@@ -97,10 +99,10 @@ impl fmt::Display for TryFault {
 }
 
 impl CallbackDelivery {
-    /// Ready to run; `None` where nobody is to be told. `message` makes the body of a callback from its job.
+    /// Ready to run; `None` if callbacks are off. `message` makes the body of a callback from its job.
     ///
     /// # Errors
-    /// If the system gives no client.
+    /// If the HTTP client can't be built.
     pub fn new(
         store: Arc<dyn Store>,
         settings: &JobSettings,
@@ -136,7 +138,7 @@ impl CallbackDelivery {
         Self { store, allow, secret: secret.clone(), message, client, silent, pace, metrics: Arc::default() }
     }
 
-    /// Deliver what is due until `shutdown` is done. What is not delivered by then stays in the store.
+    /// Delivers due callbacks until `shutdown` is done. Callbacks not delivered by then stay in the store.
     pub async fn run(self, shutdown: impl Future<Output = ()>) {
         let this = Arc::new(self);
         let mut tries = JoinSet::new();
@@ -168,7 +170,7 @@ impl CallbackDelivery {
         }
     }
 
-    /// Begin what is due, as far as there is room.
+    /// Starts tries for due callbacks, as far as there is room.
     async fn begin_due(self: &Arc<Self>, tries: &mut JoinSet<()>) {
         while tries.len() < MAX_IN_FLIGHT {
             match self.store.take_callback(self.pace.lease, &WallClock::system()).await {
@@ -178,7 +180,7 @@ impl CallbackDelivery {
                 }
                 Ok(None) => return,
                 Err(error) => {
-                    // Whoever else asks the store says so too, and not every second.
+                    // Other users of the store log this too, and less often than every second.
                     tracing::debug!(%error, "callbacks wait");
                     return;
                 }
@@ -200,7 +202,7 @@ impl CallbackDelivery {
         }
     }
 
-    /// What to do after a failed try.
+    /// The outcome of a failed try: another try, or none.
     fn after(&self, fault: &TryFault, id: JobId, attempt: u32) -> Delivery {
         let unwanted = matches!(fault, TryFault::Answer(StatusCode::GONE));
         if unwanted || attempt >= MAX_TRIES {
@@ -238,7 +240,7 @@ impl CallbackDelivery {
         let request = request.header(TIMESTAMP_HEADER, timestamp).header(SIGNATURE_HEADER, signature);
         let mut response = request.body(body).send().await?;
         let mut read = 0;
-        // The status alone counts; whatever goes wrong behind it does not.
+        // Only the status counts; errors in the body don't.
         while let Ok(Some(part)) = response.chunk().await {
             read += part.len();
             if read > MAX_ANSWER_BYTES {
@@ -249,12 +251,12 @@ impl CallbackDelivery {
     }
 }
 
-/// How long to wait after so many tries.
+/// The pause after this many tries.
 pub(super) fn pause(first: Duration, tries: u32) -> Duration {
     first * 2_u32.pow(tries.clamp(1, MAX_TRIES) - 1)
 }
 
-/// A client that goes only where the list allows: no proxy, no redirect, no connection kept from an earlier call.
+/// A client restricted to allowed addresses: no proxy, no redirect, no reused connection.
 fn client(
     allow: Arc<CallbackAllow>,
     lookup: Lookup,

@@ -1,47 +1,47 @@
-//! Where a callback goes, and why it may not.
+//! The URL of a callback, and why it may be refused.
 
 use url::Url;
 
 use crate::wire::ErrorCode;
 
-/// The longest URL of a callback. Every receiver and every proxy before it takes that much.
+/// The longest URL of a callback. All receivers and proxies accept this length.
 const MAX_URL_BYTES: usize = 2_000;
 
-/// Where a callback goes. It keeps every rule that can be told without resolving its host.
+/// The URL of a callback. It satisfies every rule that can be checked without resolving its host.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CallbackUrl(Url);
 
-/// Why a callback may not be.
+/// Why a callback is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CallbackFault {
-    /// Longer than any URL should be.
+    /// The URL is too long.
     #[error("a callback's URL has at most {MAX_URL_BYTES} bytes")]
     TooLong,
-    /// No URL at all.
+    /// Not a URL.
     #[error("not a URL: {0}")]
     NotAUrl(url::ParseError),
-    /// Not a scheme that callbacks go by.
+    /// Neither http nor https.
     #[error("a callback goes by http or https")]
     Scheme,
-    /// A name or password within the URL, which would end up in logs on the way.
+    /// User or password in the URL, which would end up in logs on the way.
     #[error("a callback's URL holds no name and no password")]
     UserInfo,
-    /// A fragment, which no receiver ever sees.
+    /// A fragment, which is never sent to a receiver.
     #[error("a callback's URL has no fragment")]
     Fragment,
-    /// Nobody is told at all.
+    /// Callbacks are off.
     #[error("this service makes no callbacks")]
     Off,
     /// The host is not listed.
     #[error("'{0}' is not among the hosts that this service may call back")]
     NotListed(String),
-    /// The host is listed by name, and where it lies may not be called.
+    /// The host is listed by name, but resolves to an address that may not be called.
     #[error("'{0}' resolves to an address that is neither public nor listed")]
     NotPublic(String),
 }
 
 impl CallbackFault {
-    /// As it is written everywhere.
+    /// Its error code.
     pub fn code(&self) -> ErrorCode {
         match self {
             Self::TooLong => ErrorCode::OutOfRange,
@@ -52,7 +52,7 @@ impl CallbackFault {
 }
 
 impl CallbackUrl {
-    /// A URL that a callback could go to, whoever is listed.
+    /// A URL fit for callbacks, before the allow list is asked.
     pub(super) fn parse(text: &str) -> Result<Self, CallbackFault> {
         if text.len() > MAX_URL_BYTES {
             return Err(CallbackFault::TooLong);
@@ -67,11 +67,11 @@ impl CallbackUrl {
         if url.fragment().is_some() {
             return Err(CallbackFault::Fragment);
         }
-        // What is kept is read again when it is due, and letters may have become longer.
+        // The URL is parsed again when it is due, and escaping may have made it longer.
         if url.as_str().len() > MAX_URL_BYTES { Err(CallbackFault::TooLong) } else { Ok(Self(url)) }
     }
 
-    /// As every reader of URLs understands it: `http://0x7f.1/` is `http://127.0.0.1/`.
+    /// In its canonical form: `http://0x7f.1/` is `http://127.0.0.1/`.
     pub fn as_str(&self) -> &str {
         self.0.as_str()
     }
@@ -84,7 +84,7 @@ impl CallbackUrl {
         self.0.host_str().unwrap_or_default()
     }
 
-    /// Who is told: host and port.
+    /// The receiver: host and port.
     pub(super) fn receiver(&self) -> String {
         let port = self.0.port_or_known_default().unwrap_or_default();
         format!("{}:{port}", self.host())

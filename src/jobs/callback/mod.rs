@@ -1,7 +1,7 @@
-//! Callbacks: whoever handed a job in is told of its end.
+//! Callbacks: a POST to the submitter's receiver when a job has ended.
 //!
-//! Only receivers that the operator lists are told ([`CallbackAllow`]), each message is signed ([`CallbackSecret`]), and
-//! [`CallbackDelivery`] repeats it until the receiver has taken it or has had enough chances.
+//! Only receivers on the operator's list are called ([`CallbackAllow`]). Each message is signed ([`CallbackSecret`]).
+//! [`CallbackDelivery`] repeats it until the receiver has taken it or the tries are used up.
 
 mod address;
 mod allow;
@@ -18,7 +18,7 @@ pub use deliver::CallbackDelivery;
 pub use destination::{CallbackFault, CallbackUrl};
 pub use sign::CallbackSecret;
 
-/// Callbacks on their way to receivers that do all that receivers do. Times are short only where a test waits for them.
+/// Callbacks against receivers with every kind of behaviour. Times are short only where a test waits for them.
 #[cfg(test)]
 mod tests {
     mod delivery;

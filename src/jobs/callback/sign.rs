@@ -1,4 +1,4 @@
-//! How a receiver knows that a callback is ours.
+//! The signature by which a receiver recognises our callbacks.
 
 use core::fmt;
 use core::fmt::Write as _;
@@ -7,8 +7,7 @@ use core::str::FromStr;
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 
-/// The header with the moment at which a message was signed, seconds since 1970. A receiver refuses old ones: somebody
-/// else may have kept them.
+/// The header with the time of signing, seconds since 1970. Receivers refuse old ones, which may be replays.
 pub(super) const TIMESTAMP_HEADER: &str = "singulate-timestamp";
 /// The header with the signature.
 pub(super) const SIGNATURE_HEADER: &str = "singulate-signature";
@@ -16,7 +15,7 @@ pub(super) const SIGNATURE_HEADER: &str = "singulate-signature";
 /// The shortest secret: 128 bits, if they are random, are beyond guessing.
 const MIN_SECRET_BYTES: usize = 16;
 
-/// What we and the receivers of callbacks know, and nobody else. Never displayed.
+/// The secret shared with the receivers of callbacks. Never displayed.
 #[derive(Clone, PartialEq, Eq)]
 pub struct CallbackSecret(String);
 
@@ -25,7 +24,7 @@ impl FromStr for CallbackSecret {
 
     fn from_str(text: &str) -> Result<Self, String> {
         if text.len() < MIN_SECRET_BYTES {
-            // Not what was said: errors end up in logs.
+            // Without the text: errors end up in logs.
             return Err(format!("the secret is shorter than {MIN_SECRET_BYTES} bytes"));
         }
         Ok(Self(text.to_owned()))
@@ -117,7 +116,7 @@ mod tests {
         }
     }
 
-    /// Runs the documented check on a message; true if it takes it.
+    /// Runs the documented check on a message; true if it passes.
     fn documented_receiver_takes(headers: &str, body: &str) -> bool {
         let (_, rest) = PAGE.split_once("```python\n").unwrap();
         let example = rest.split_once("```").unwrap().0;

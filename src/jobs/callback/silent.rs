@@ -1,4 +1,4 @@
-//! Receivers that don't answer, so that those who wait for them don't hold up everybody else.
+//! Receivers that time out, so that callbacks to them don't hold up the others.
 
 use core::time::Duration;
 use std::collections::HashMap;
@@ -6,13 +6,13 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::jobs::timestamp::Timestamp;
 
-/// Receivers to whom nothing has gone for so many rests are forgotten: nobody waits for them.
+/// Receivers without a try for this many rests are forgotten.
 const REMEMBERED: u32 = 10;
 
-/// Which receivers let the last try run out of time. Each gets one try at a time until it answers.
+/// Receivers whose last try timed out. Each gets one try at a time until it answers.
 #[derive(Debug)]
 pub(super) struct SilentReceivers {
-    /// For how long nobody else is sent to one.
+    /// The time between two tries to one receiver.
     rest: Duration,
     /// When the next try may go.
     until: Mutex<HashMap<String, Timestamp>>,
@@ -23,10 +23,10 @@ impl SilentReceivers {
         Self { rest, until: Mutex::default() }
     }
 
-    /// May a try go to this receiver?
+    /// Admits a try to this receiver.
     ///
     /// # Errors
-    /// When the next one may.
+    /// The time of the next try.
     pub(super) fn admit(&self, receiver: &str, now: Timestamp) -> Result<(), Timestamp> {
         let mut until = self.until.lock().unwrap_or_else(PoisonError::into_inner);
         match until.get_mut(receiver) {
@@ -39,7 +39,7 @@ impl SilentReceivers {
         }
     }
 
-    /// What a try has shown of the receiver.
+    /// Notes whether the receiver answered a try.
     pub(super) fn note(&self, receiver: &str, answered: bool, now: Timestamp) {
         let mut until = self.until.lock().unwrap_or_else(PoisonError::into_inner);
         if answered {

@@ -1,4 +1,4 @@
-//! One call that writes: how long its caller waits, and what becomes of the transaction once nobody does.
+//! One write call: how long its caller waits, and how an abandoned transaction is undone.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -13,15 +13,15 @@ use tokio_util::task::TaskTracker;
 
 use crate::jobs::upkeep::Pause;
 
-/// How long a caller waits besides for a commit that has begun, which can't be taken back.
+/// Extra waiting time for a commit that has begun, since it can't be taken back.
 const COMMIT_PATIENCE: Duration = Duration::from_secs(2);
 
-/// Whether a transaction is committed. Its task and its caller decide it together: the first one does.
+/// Whether a transaction commits. Task and caller compete for the decision: the first one wins.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Decision(Arc<AtomicBool>);
 
 impl Decision {
-    /// The task may commit.
+    /// The task decides to commit.
     ///
     /// # Errors
     /// The caller has given up.
@@ -29,7 +29,7 @@ impl Decision {
         if self.decide() { Ok(()) } else { Err(given_up()) }
     }
 
-    /// Nothing is decided yet.
+    /// The decision is still open.
     ///
     /// # Errors
     /// The caller has given up.
@@ -37,28 +37,28 @@ impl Decision {
         if self.0.load(Ordering::Acquire) { Err(given_up()) } else { Ok(()) }
     }
 
-    /// True if nothing will be committed.
+    /// The caller gives up. True if nothing will be committed.
     fn give_up(&self) -> bool {
         self.decide()
     }
 
-    /// True for whoever decides.
+    /// True for the first to decide.
     fn decide(&self) -> bool {
         !self.0.swap(true, Ordering::AcqRel)
     }
 }
 
-/// Nobody hears of it.
+/// The error of an abandoned call; nobody receives it.
 fn given_up() -> Error {
     Error::Io(ErrorKind::TimedOut.into())
 }
 
-/// What `task` answers, which makes one transaction and commits it if `decision` allows. A task of its own does it, which
-/// nobody drops: a transaction that is dropped while it begins would go back to the pool with its connection, still open.
+/// The result of `task`, which makes one transaction and commits it if `decision` allows. It runs as a spawned task,
+/// which is never dropped: a transaction dropped while it begins would return its connection to the pool still open.
 ///
-/// A caller who has waited for `patience` gives up, and the transaction is rolled back. If it is just being committed, he
-/// waits a little longer. What was committed and nobody has heard of, because he went all the same, `undo` takes back.
-/// Once `tasks` is closed, nothing new begins.
+/// A caller gives up after `patience`, and the transaction is rolled back. If it is being committed, the caller waits a
+/// little longer. If the caller gives up even so, `undo` takes the commit back. Once `tasks` is closed, nothing new
+/// begins.
 pub(super) async fn answer<T: Send + 'static, U: Future<Output = ()> + Send>(
     tasks: &TaskTracker,
     (patience, decision): (Duration, &Decision),
@@ -81,14 +81,14 @@ pub(super) async fn answer<T: Send + 'static, U: Future<Output = ()> + Send>(
     match answer {
         Ok(answer) => Ok(answer.unwrap_or(Err(Error::WorkerCrashed))),
         Err(late) => {
-            // From here on it counts as unheard; until now it may have come.
+            // From here on the answer counts as unheard; it may have come just before.
             receiver.close();
             receiver.try_recv().map_err(|_| late)
         }
     }
 }
 
-/// Tries this until it succeeds or the time is over.
+/// Retries until success or until the time is over.
 pub(super) async fn insist<F: Future<Output = Result<(), Error>>>(time: Duration, work: impl Fn() -> F) {
     let (begin, mut pause) = (Instant::now(), Pause::default());
     while let Err(error) = work().await {

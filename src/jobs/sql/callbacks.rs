@@ -1,4 +1,4 @@
-//! Callbacks: due from the end of their job until somebody says that they are over.
+//! Store calls of callbacks: a callback is due from the end of its job until it is settled.
 
 use core::time::Duration;
 
@@ -11,7 +11,7 @@ use super::herald::News;
 use super::row;
 use crate::jobs::{Callback, Delivery, JobId, Timestamp, WallClock};
 
-/// The lease begins once the callback is ours: another's lock may have kept us waiting.
+/// The lease begins once the callback is locked by us, since the lock may take time.
 pub(super) async fn take(
     change: &mut Change<'_>,
     lease: Duration,
@@ -33,7 +33,7 @@ pub(super) async fn take(
     Ok(Some(Callback { job, url, attempt }))
 }
 
-/// Only the latest try has a say: an older one's lease is over.
+/// Only the latest try is settled: the lease of an older one is over.
 pub(super) async fn settle(change: &mut Change<'_>, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), Error> {
     let due = match delivery {
         Delivery::Over => None,
@@ -46,7 +46,7 @@ pub(super) async fn settle(change: &mut Change<'_>, id: JobId, attempt: u32, del
     query.execute(change.connection()).await.map(drop)
 }
 
-/// A callback that nobody has heard of is due at once, and was never tried.
+/// Undoes a claim that nobody received: the callback is due at once, and the try does not count.
 pub(super) async fn give_back(database: &Database, id: JobId, attempt: u32, now: Timestamp) -> Result<(), Error> {
     let mut change = Change::begin(database, Decision::default()).await?;
     let query = sqlx::query(

@@ -1,4 +1,4 @@
-//! One transaction that writes, and the two things that can happen to a job on the way: it ends, or waits again.
+//! One write transaction, and two transitions that a job can make in it: it ends, or is queued again.
 
 use core::cmp::Reverse;
 
@@ -14,11 +14,11 @@ use super::row;
 use crate::jobs::{Claim, End, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
 use singulate_planner::search::Incumbent;
 
-/// What has to be known of a job before it is changed.
+/// The columns read before a job is changed.
 pub(super) const STANDING: &str = "SELECT id, owner, state, attempts, fence, cancel_requested, ended_by, cost, lower_bound, \
     priority, turn, CASE WHEN callback_url IS NULL THEN 0 ELSE 1 END AS has_callback FROM jobs";
 
-/// How a job stands when it is about to change.
+/// A job before a change.
 #[derive(Debug)]
 pub(super) struct Standing {
     pub(super) id: JobId,
@@ -32,7 +32,7 @@ pub(super) struct Standing {
     pub(super) incumbent: Option<Incumbent>,
     pub(super) priority: i64,
     pub(super) turn: i64,
-    /// Somebody is told of its end.
+    /// True if it has a callback.
     pub(super) has_callback: bool,
 }
 
@@ -53,17 +53,17 @@ impl Standing {
         })
     }
 
-    /// True if this claim is the one that counts.
+    /// True if this claim holds the job.
     pub(super) fn held_by(&self, claim: Claim) -> bool {
         self.state == JobState::Running && self.fence == claim.fence
     }
 
-    /// The less it is, the earlier the job is claimed.
+    /// Jobs are claimed in ascending order of this key.
     pub(super) fn order(&self) -> impl Ord + use<> {
         (Reverse(self.priority), self.turn, self.id)
     }
 
-    /// The line of what happens to it now.
+    /// The event line of a change that happens now.
     pub(super) fn line(&self, kind: EventKind, attempts: u32, now: Timestamp) -> String {
         events::line(&self.event(kind, attempts, now))
     }
@@ -73,7 +73,7 @@ impl Standing {
     }
 }
 
-/// How a job ends, and with what.
+/// The end of a job: state and content.
 #[derive(Debug)]
 pub(super) struct Ending<'a> {
     pub(super) state: JobState,
@@ -84,7 +84,7 @@ pub(super) struct Ending<'a> {
 }
 
 impl<'a> Ending<'a> {
-    /// In this state, with the answer or the problem of `end`.
+    /// This state, with the answer or the problem of `end`.
     pub(super) fn new(state: JobState, end: &'a End, by: Option<i64>) -> Self {
         match end {
             End::Succeeded(result) => Self { state, result: Some(result), problem: None, by },
@@ -92,13 +92,13 @@ impl<'a> Ending<'a> {
         }
     }
 
-    /// In this state, without an answer and without a problem.
+    /// This state, without an answer or a problem.
     pub(super) fn bare(state: JobState) -> Self {
         Self { state, result: None, problem: None, by: None }
     }
 }
 
-/// A transaction that writes. Dropped without [`Self::commit`], nothing has happened.
+/// A write transaction. Dropped without [`Self::commit`], it is rolled back.
 pub(super) struct Change<'a> {
     database: &'a Database,
     transaction: Transaction<'static, Any>,
@@ -107,14 +107,14 @@ pub(super) struct Change<'a> {
 }
 
 impl<'a> Change<'a> {
-    /// To begin may take seconds; whoever asked for it may have given up by then.
+    /// Begins a transaction. That may take seconds; the caller may have given up by then.
     pub(super) async fn begin(database: &'a Database, decision: Decision) -> Result<Self, Error> {
         let transaction = database.begin().await?;
         decision.open()?;
         Ok(Self { database, transaction, decision, news: Vec::new() })
     }
 
-    /// Everything is on disk, and whoever waits hears of it; or whoever asked for it has given up, and nothing happens.
+    /// Commits and wakes the waiting tasks; if the caller has given up, rolls back.
     pub(super) async fn commit(self) -> Result<(), Error> {
         self.decision.commit()?;
         self.transaction.commit().await?;
@@ -134,19 +134,19 @@ impl<'a> Change<'a> {
         &self.database.settings
     }
 
-    /// To be told once everything is on disk.
+    /// Announces the change after the commit.
     pub(super) fn announce(&mut self, news: News) {
         self.news.push(news);
     }
 
-    /// How the job stands. Until the transaction ends, nobody else changes it.
+    /// The job before a change, locked until the transaction ends.
     pub(super) async fn standing(&mut self, id: JobId) -> Result<Option<Standing>, Error> {
         let text = format!("{STANDING} WHERE id = $1{}", self.dialect().locked());
         let query = sqlx::query(AssertSqlSafe(text)).bind(id.to_string());
         query.fetch_optional(self.connection()).await?.as_ref().map(Standing::read).transpose()
     }
 
-    /// The job ends. What it was to be planned from is not needed any more.
+    /// Ends the job and deletes its request, which is not needed any more.
     pub(super) async fn end(&mut self, job: &Standing, ending: &Ending<'_>, now: Timestamp) -> Result<(), Error> {
         let query = sqlx::query(
             "UPDATE jobs SET state = $2, finished_at = $3, expires_at = $4, result = $5, problem = $6, ended_by = $7, \
@@ -165,13 +165,13 @@ impl<'a> Change<'a> {
             .bind(job.line(EventKind::Finished, job.attempts, now))
             .execute(self.connection())
             .await?;
-        // A worker that ends its job itself need not look.
+        // A worker that ends its own job needs no recall.
         let recall = ending.by.is_none();
         self.announce(News { callback: job.has_callback, recall, ..News::of(job.id) });
         Ok(())
     }
 
-    /// The job waits for a worker again, in the place that it had.
+    /// Queues the job again, at its old place.
     pub(super) async fn requeue(&mut self, job: &Standing, attempts: u32, now: Timestamp) -> Result<(), Error> {
         let text = format!(
             "UPDATE jobs SET state = 'queued', attempts = $2, events = events || $3 || CAST({} AS TEXT) || '\n', lease_ends = NULL, \

@@ -1,22 +1,22 @@
-//! Where SQLite and PostgreSQL differ.
+//! The differences between SQLite and PostgreSQL.
 
 use std::borrow::Cow;
 
 use sqlx::SqlSafeStr;
 use sqlx::migrate::{Migration, MigrationType, Migrator};
 
-/// Which database.
+/// The kind of database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dialect {
     /// One file, or memory.
     Sqlite,
-    /// A server that many share.
+    /// A server shared by many.
     Postgres,
 }
 
 impl Dialect {
-    /// Begins a transaction that writes. SQLite has one writer at a time, who says so at once: a reader that turns writer
-    /// could be refused.
+    /// Begins a write transaction. SQLite has one writer at a time, so it takes the write lock at once: a reader that
+    /// turns writer could be refused.
     pub(super) fn begin(self) -> &'static str {
         match self {
             Self::Sqlite => "BEGIN IMMEDIATE",
@@ -24,7 +24,7 @@ impl Dialect {
         }
     }
 
-    /// At the end of a query: nobody else changes these rows before the transaction ends. SQLite's writer is alone.
+    /// Suffix of a query: locks these rows until the transaction ends. SQLite's writer is alone.
     pub(super) fn locked(self) -> &'static str {
         match self {
             Self::Sqlite => "",
@@ -32,7 +32,7 @@ impl Dialect {
         }
     }
 
-    /// The same, but rows that somebody else has locked are passed over.
+    /// The same, but skips rows that are locked by others.
     pub(super) fn locked_if_free(self) -> &'static str {
         match self {
             Self::Sqlite => "",
@@ -40,7 +40,7 @@ impl Dialect {
         }
     }
 
-    /// Keeps everybody else from accepting jobs until the transaction ends: the lock's name is the table's number.
+    /// Serialises submissions until the transaction ends. The lock's id is the table's number.
     pub(super) fn lock_submits(self) -> Option<&'static str> {
         match self {
             Self::Sqlite => None,
@@ -48,7 +48,7 @@ impl Dialect {
         }
     }
 
-    /// The tables, step by step. A step that has been published never changes.
+    /// The schema migrations. A published one never changes.
     pub(super) fn migrations(self) -> Migrator {
         let first = match self {
             Self::Sqlite => include_str!("migrations/sqlite_1_jobs.sql"),

@@ -1,4 +1,4 @@
-//! Events as they stand in a job's row: one line each, so that one more is text at the end.
+//! Events as text in a job's row, one line each, so that a new event is appended.
 
 use core::str::FromStr;
 
@@ -15,7 +15,7 @@ pub(super) fn line(event: &Event) -> String {
     }
 }
 
-/// The line of an event, but for the place in the queue and the line's end, which the database adds.
+/// The line of an event without the queue position and the newline, which the database adds.
 pub(super) fn up_to_the_place(event: &Event) -> String {
     words(event) + " @"
 }
@@ -28,7 +28,7 @@ fn words(event: &Event) -> String {
     }
 }
 
-/// The events of these lines; nothing where one is none.
+/// The events of these lines; `None` if a line is invalid.
 pub(super) fn read(lines: &str) -> Option<Vec<Event>> {
     lines.lines().map(event).collect()
 }

@@ -1,15 +1,15 @@
-//! What is special about a SQLite file: its write-ahead log, and that other processes may have it open.
+//! SQLite files: the write-ahead log, and other processes that have the file open.
 
 use core::time::Duration;
 
 use sqlx::{AnyPool, Error, Row, raw_sql};
 use tokio::time::{Instant, sleep};
 
-/// How long other processes that open the same file at the same time may keep us from it.
+/// How long processes that open the file at the same time may block us.
 const OPENING: Duration = Duration::from_secs(30);
 
-/// The file remembers it, so it happens once. Whoever is refused because another process is at it tries again: SQLite
-/// does not wait for this lock by itself.
+/// Switches to the write-ahead log. The file remembers it, so it happens once. Retries if another process blocks it:
+/// SQLite does not wait for this lock by itself.
 pub(super) async fn use_write_ahead_log(writers: &AnyPool) -> Result<(), Error> {
     let begin = Instant::now();
     loop {
@@ -20,12 +20,12 @@ pub(super) async fn use_write_ahead_log(writers: &AnyPool) -> Result<(), Error> 
     }
 }
 
-/// Whether another process has the file open. SQLite keeps a shared lock on each file that it has open, and the system frees
-/// the locks of a process that crashes. So the exclusive lock is granted exactly if nobody else is there; it is released at
-/// once. Of two processes that ask at the same time, at least one hears of the other.
+/// True if another process has the file open. SQLite keeps a shared lock on each open file, and the system frees the
+/// locks of a crashed process. So the exclusive lock is granted exactly if no other process is there; it is released at
+/// once. Of two processes that ask at the same time, at least one sees the other.
 ///
-/// The connection that writes must be the only one of this process. If the lock was refused, the connection has to be
-/// replaced: some versions of SQLite keep a pending lock then, which shuts out newcomers.
+/// The writing connection must be the only one of this process. If the lock was refused, replace the connection: some
+/// versions of SQLite then keep a pending lock, which shuts out newcomers.
 pub(super) async fn is_shared(writers: &AnyPool) -> Result<bool, Error> {
     let mut connection = writers.acquire().await?;
     // The SELECT opens the log. A log that is first opened in exclusive mode can't leave that mode.
@@ -40,10 +40,10 @@ pub(super) async fn is_shared(writers: &AnyPool) -> Result<bool, Error> {
     }
 }
 
-/// All that is in the log goes into the file. False if it can't, since somebody reads what it was before.
+/// Checkpoints the log into the file. False if a reader still needs the old state.
 pub(super) async fn empty_log(writers: &AnyPool) -> Result<bool, Error> {
     let mut connection = writers.acquire().await?;
-    // Whoever reads for longer is not waited for.
+    // Longer readers are not waited for.
     raw_sql("PRAGMA busy_timeout = 1000").execute(&mut *connection).await?;
     let row = sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").fetch_one(&mut *connection).await?;
     Ok(row.try_get::<i64, _>("busy")? == 0)

@@ -1,7 +1,7 @@
-//! Tells whoever waits what has changed: here, and through PostgreSQL on the other servers.
+//! Announces changes: to this server, and through PostgreSQL to the others.
 //!
-//! What is told is a hint. Telling it takes no part in any transaction: PostgreSQL would let only one transaction that
-//! notifies be committed at a time.
+//! Announcements are hints. They are sent outside of all transactions: PostgreSQL commits transactions that notify one
+//! at a time.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -14,11 +14,11 @@ use uuid::Uuid;
 
 use crate::jobs::{Hints, JobId};
 
-/// Where servers hear each other.
+/// The notification channel of all servers.
 const CHANNEL: &str = "singulate_jobs";
-/// Changes told at a time: a notification has at most 8,000 bytes, a change takes less than 60.
+/// Changes per notification, which has at most 8,000 bytes; a change takes less than 60.
 const TOLD_AT_A_TIME: usize = 100;
-/// Changes that wait to be told. More are dropped: whoever misses one looks again now and then.
+/// Changes that wait to be sent. More are dropped: receivers poll as well.
 const MAX_WAITING: usize = 10_000;
 /// Between two tries to reach the database.
 const PAUSE: Duration = Duration::from_secs(1);
@@ -26,18 +26,18 @@ const PAUSE: Duration = Duration::from_secs(1);
 /// A job has changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct News {
-    /// Which.
+    /// The job.
     pub(super) id: JobId,
-    /// It waits for a worker now.
+    /// It is queued now.
     pub(super) queued: bool,
     /// A callback is due now.
     pub(super) callback: bool,
-    /// Its worker has to look: it was cancelled, or lost.
+    /// Its worker must check it: it was cancelled, or its lease ended.
     pub(super) recall: bool,
 }
 
 impl News {
-    /// It has changed, and no more is to be done than to look.
+    /// A change that only watchers need to see.
     pub(super) fn of(id: JobId) -> Self {
         Self { id, queued: false, callback: false, recall: false }
     }
@@ -46,21 +46,21 @@ impl News {
 #[derive(Debug)]
 pub(super) struct Herald {
     hints: Arc<Hints>,
-    /// To the task that tells the other servers.
+    /// The channel to the task that notifies other servers.
     others: Option<Sender<News>>,
     tasks: Vec<AbortHandle>,
 }
 
 impl Herald {
-    /// For a database that can't carry news.
+    /// For a database without notifications.
     pub(super) fn alone() -> Self {
         Self { hints: Arc::default(), others: None, tasks: Vec::new() }
     }
 
-    /// Listens and tells, through the database at this address.
+    /// Listens and notifies, through the database at this address.
     pub(super) async fn among_others(url: &str, pool: &AnyPool) -> Result<Self, Error> {
         let hints = Arc::<Hints>::default();
-        // Whoever spoke doesn't listen to the echo.
+        // A server ignores its own notifications.
         let name = Uuid::now_v7().to_string();
         let first = listener(url).await?;
         let hearing = tokio::spawn(hear(url.to_owned(), Arc::clone(&hints), name.clone(), first));
@@ -103,7 +103,7 @@ fn wake(hints: &Hints, news: &News) {
     }
 }
 
-/// One change as a word: the job, then what there is to do.
+/// A change as a word of a notification: the job, then its flags.
 fn word(news: &News) -> String {
     let parts = [(news.queued, "+work"), (news.callback, "+callback"), (news.recall, "+recall")];
     let told: String = parts.into_iter().filter(|(so, _)| *so).map(|(_, part)| part).collect();
@@ -147,7 +147,7 @@ async fn hear(url: String, hints: Arc<Hints>, name: String, first: PgListener) {
                         words.filter_map(read).for_each(|news| wake(&hints, &news));
                     }
                 }
-                // It was away and is there again.
+                // The connection was lost and is back.
                 Ok(None) => hints.all_changed(),
                 Err(error) => {
                     tracing::debug!(%error, "changes on other servers are not heard");

@@ -1,9 +1,8 @@
-//! Jobs in SQLite, for one machine, or in PostgreSQL, for many. One implementation: where the two differ, [`dialect`] says
-//! how.
+//! Jobs in SQLite, for one machine, or in PostgreSQL, for many. One implementation: [`dialect`] holds the differences.
 //!
-//! From below: the [`database`] has the connections; a [`change`] is one transaction in it, for which a [`call`] waits, and
-//! whoever must know hears of it from the [`herald`]; [`owner`], [`worker`], [`callbacks`] and [`sweep`] are the questions,
-//! by who asks them; [`store`] is the way in of all of them, and [`mod@open`] makes it.
+//! From below: [`database`] has the connections; a [`change`] is one write transaction; a [`call`] waits for it; the
+//! [`herald`] announces it. [`owner`], [`worker`], [`callbacks`] and [`sweep`] hold the queries, by caller. [`store`]
+//! is their entry point, and [`mod@open`] makes it.
 
 mod call;
 mod callbacks;

@@ -1,4 +1,4 @@
-//! From an address to a store: connected, with its tables, listening.
+//! Opens the store at an address: connects, migrates, listens.
 
 use core::time::Duration;
 use std::sync::{Arc, Once};
@@ -16,28 +16,28 @@ use super::store::SqlStore;
 use crate::jobs::{JobSettings, Store};
 use crate::metrics::Metrics;
 
-/// Readers of a file. They never wait for its writer; a few keep long lists from holding up short looks.
+/// Read connections of a file. They never wait for the writer; a few keep long lists from delaying short reads.
 const SQLITE_READERS: u32 = 4;
-/// Writers of a file queue here, and for the lock only against other processes. An fsync of a slow disk takes 50 ms, and
-/// a hundred may wait.
+/// Writers of a file queue here, and at the file's lock only for other processes. An fsync of a slow disk takes 50 ms,
+/// and a hundred may wait.
 const SQLITE_WAIT: Duration = Duration::from_secs(5);
-/// Enough to keep a database busy whose commits wait for a disk; many servers share its hundred.
+/// Enough to keep a database busy whose commits wait for a disk; many servers share its hundred connections.
 const POSTGRES_CONNECTIONS: u32 = 8;
-/// How long a database may be away before a caller hears of it.
+/// How long a database may be away before a caller gets an error.
 const POSTGRES_WAIT: Duration = Duration::from_secs(2);
-/// Every question is answered in milliseconds. What takes longer than this, a lock that is not released among them, fails.
-/// A server that vanished within a transaction holds up others no longer either.
+/// Queries are answered in milliseconds. Slower ones fail, including those that wait for a lock. A server that vanishes
+/// within a transaction no longer blocks others either.
 const POSTGRES_LIMITS: &str = "SET statement_timeout = '5s'; SET idle_in_transaction_session_timeout = '5s'";
 
-/// Why there is no store.
+/// Why the store can't be opened.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("--jobs-url: {0}")]
 pub struct OpenError(String);
 
-/// The store at the settings' address. Its tables are made, or brought up to date, by whoever comes first.
+/// The store at the settings' address. The first process creates or migrates its tables.
 ///
 /// # Errors
-/// [`OpenError`] where the address can't be understood or nothing can be kept there.
+/// [`OpenError`] if the address is invalid or the database unusable.
 pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<dyn Store>, OpenError> {
     static DRIVERS: Once = Once::new();
     DRIVERS.call_once(install_default_drivers);
@@ -62,16 +62,16 @@ async fn sqlite(settings: &JobSettings) -> Result<Database, Error> {
     let path =
         settings.url.trim_start_matches("sqlite:").trim_start_matches("//").split('?').next().unwrap_or_default();
     if path.is_empty() || (!memory && settings.url.contains("mode=memory")) {
-        // SQLite would make a database for each connection, which ends with it.
+        // SQLite would make one database per connection, which ends with it.
         return Err(Error::Configuration("it names no file".into()));
     }
     let created = if settings.url.contains('?') { "&mode=rwc" } else { "?mode=rwc" };
     let url =
         if memory || settings.url.contains("mode=") { settings.url.clone() } else { settings.url.clone() + created };
     let options = url.parse::<AnyConnectOptions>()?.disable_statement_logging();
-    // Nothing closes these connections: memory would go with them.
+    // These connections are never closed: the data in memory would be lost.
     let pool = AnyPoolOptions::new().acquire_timeout(SQLITE_WAIT).idle_timeout(None).max_lifetime(None);
-    // A full disk ends a transaction behind the driver's back, which then counts one too many for ever.
+    // A full disk ends a transaction behind the driver's back, and the driver's count stays one too high.
     let pool = pool.before_acquire(|connection, _| Box::pin(async move { Ok(!connection.is_in_transaction()) }));
     let writing = "PRAGMA busy_timeout = 5000; PRAGMA synchronous = FULL";
     let reading = "PRAGMA busy_timeout = 5000; PRAGMA query_only = ON";
@@ -83,7 +83,7 @@ async fn sqlite(settings: &JobSettings) -> Result<Database, Error> {
     // In one transaction: of two processes that start at once, one makes the tables and the other finds them.
     let mut transaction = writers.begin_with(Dialect::Sqlite.begin()).await?;
     migrate(&mut transaction, Dialect::Sqlite).await?;
-    // SQLite opens what it can't write, and says so only now.
+    // SQLite opens read-only files too, and fails only at the first write.
     sqlx::query("DELETE FROM jobs WHERE id = ''").execute(&mut *transaction).await?;
     transaction.commit().await?;
     let readers = match memory {
@@ -94,7 +94,7 @@ async fn sqlite(settings: &JobSettings) -> Result<Database, Error> {
     Ok(Database { dialect, settings, writers, readers, tasks: TaskTracker::new(), herald })
 }
 
-/// The connection that writes to a file, with its log in use. It is made anew where another process has the file open.
+/// The write connection of a file with a write-ahead log. It is replaced if another process has the file open.
 async fn writers_of_file(pool: AnyPoolOptions, options: AnyConnectOptions, path: &str) -> Result<AnyPool, Error> {
     let writers = pool.clone().connect_with(options.clone()).await?;
     file::use_write_ahead_log(&writers).await?;
@@ -109,7 +109,7 @@ async fn writers_of_file(pool: AnyPoolOptions, options: AnyConnectOptions, path:
 async fn postgres(settings: &JobSettings) -> Result<Database, Error> {
     let options = settings.url.parse::<AnyConnectOptions>()?.disable_statement_logging();
     let pool = AnyPoolOptions::new().acquire_timeout(POSTGRES_WAIT).max_connections(POSTGRES_CONNECTIONS);
-    // Without limits: the tables may take their time, and so may another server that is making them.
+    // Without timeouts: migrations may take time, and so may another server that runs them.
     let mut connection = options.connect().await?;
     migrate(&mut connection, Dialect::Postgres).await?;
     connection.close().await?;
@@ -119,14 +119,14 @@ async fn postgres(settings: &JobSettings) -> Result<Database, Error> {
     Ok(Database { dialect, settings, writers: pool, readers, tasks: TaskTracker::new(), herald })
 }
 
-/// Each new connection begins with these statements.
+/// Runs these statements on each new connection.
 fn on_connect(pool: AnyPoolOptions, statements: &'static str) -> AnyPoolOptions {
     pool.after_connect(move |connection, _| {
         Box::pin(async move { sqlx::raw_sql(statements).execute(connection).await.map(drop) })
     })
 }
 
-/// Takes PostgreSQL's lock for migrations meanwhile; SQLite has none.
+/// Runs the migrations, under PostgreSQL's migration lock; SQLite has none.
 async fn migrate(connection: &mut AnyConnection, dialect: Dialect) -> Result<(), Error> {
     dialect.migrations().run_direct(None, connection, false).await.map_err(|error| match error {
         MigrateError::Execute(error) => error,

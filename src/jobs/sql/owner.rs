@@ -1,4 +1,4 @@
-//! What owners ask for: jobs to be accepted, all of one request or none, to be cancelled and to be forgotten.
+//! Store calls of owners: submit all jobs of a request or none, cancel, forget.
 
 use core::cmp::Reverse;
 use std::collections::HashMap;
@@ -11,20 +11,20 @@ use super::herald::News;
 use super::row;
 use crate::jobs::{Cancellation, Event, EventKind, Job, JobId, JobState, NewJob, Owner, Removal, Timestamp};
 
-/// What became of a request.
+/// The outcome of a submission.
 #[derive(Debug)]
 pub(super) enum Submitted {
-    /// These are its jobs, now or since the first time.
+    /// The jobs of this request, new or from the first submission.
     Accepted(Vec<Job>),
-    /// No room.
+    /// The queue is full.
     Full,
-    /// Its key belongs to another request.
+    /// The key belongs to a different request.
     KeyReused,
 }
 
 pub(super) async fn submit(change: &mut Change<'_>, jobs: &[NewJob], now: Timestamp) -> Result<Submitted, Error> {
     let Some(first) = jobs.first() else { return Ok(Submitted::Accepted(Vec::new())) };
-    // One at a time: two that came at once would both find the key unknown and the last place free.
+    // One at a time: two at once would both find the key unknown and the last place free.
     if let Some(lock) = change.dialect().lock_submits() {
         sqlx::query(lock).execute(change.connection()).await?;
     }
@@ -39,7 +39,7 @@ pub(super) async fn submit(change: &mut Change<'_>, jobs: &[NewJob], now: Timest
     accept(change, jobs, now).await.map(Submitted::Accepted)
 }
 
-/// All of them into the queue, each with its turn.
+/// Queues all jobs, each with its turn.
 async fn accept(change: &mut Change<'_>, jobs: &[NewJob], now: Timestamp) -> Result<Vec<Job>, Error> {
     let (mut turns, mut queue) = (HashMap::new(), Vec::with_capacity(jobs.len()));
     for (at, job) in jobs.iter().enumerate() {
@@ -50,7 +50,7 @@ async fn accept(change: &mut Change<'_>, jobs: &[NewJob], now: Timestamp) -> Res
         turns.insert((&job.owner, job.priority), turn);
         queue.push((at, job, turn));
     }
-    // Each is told its place in the queue, which those before it have to be in by then.
+    // Each event holds the job's place in the queue, so jobs ahead of it are inserted first.
     queue.sort_by_key(|(_, job, turn)| (Reverse(job.priority), *turn, job.id));
     let mut accepted = Vec::with_capacity(jobs.len());
     for (at, job, turn) in queue {
@@ -61,7 +61,7 @@ async fn accept(change: &mut Change<'_>, jobs: &[NewJob], now: Timestamp) -> Res
     Ok(accepted.into_iter().map(|(_, job)| job).collect())
 }
 
-/// What the key says, if it came before.
+/// The earlier submission with this key, if any.
 async fn known(change: &mut Change<'_>, first: &NewJob) -> Result<Option<Submitted>, Error> {
     let Some((key, _)) = &first.key else { return Ok(None) };
     let query = sqlx::query(
@@ -76,8 +76,8 @@ async fn known(change: &mut Change<'_>, first: &NewJob) -> Result<Option<Submitt
     Ok(Some(Submitted::Accepted(row::find_all(change.connection(), &ids).await?)))
 }
 
-/// An owner's jobs of one priority take turns one by one. Whoever comes late begins with the turn that is up: nobody is
-/// owed the turns of a time when he wanted nothing, and nobody with a thousand jobs stands before somebody's first.
+/// Fair queuing: the next turn is the owner's last queued turn of this priority + 1, but no less than the least queued
+/// turn. So idle time earns no credit, and a thousand jobs of one owner don't delay the first of another.
 async fn next_turn(change: &mut Change<'_>, job: &NewJob) -> Result<i64, Error> {
     let query = sqlx::query(
         "SELECT (SELECT MAX(turn) FROM jobs WHERE state = 'queued' AND owner = $1 AND priority = $2) AS own_last, \
@@ -90,7 +90,7 @@ async fn next_turn(change: &mut Change<'_>, job: &NewJob) -> Result<i64, Error> 
     Ok(after_own.max(up).unwrap_or(0))
 }
 
-/// The job as it is accepted.
+/// Inserts the job.
 async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp) -> Result<Job, Error> {
     let event = Event { kind: EventKind::Queued, at: now, attempts: 0, incumbent: None, queue_position: None };
     let expires_at = now.after(change.settings().ttl);
@@ -142,7 +142,7 @@ async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp
     })
 }
 
-/// How the owner's job stands; another's is none.
+/// The owner's job; `None` for another owner's.
 async fn own(change: &mut Change<'_>, owner: &Owner, id: JobId) -> Result<Option<Standing>, Error> {
     Ok(change.standing(id).await?.filter(|job| job.owner == *owner))
 }

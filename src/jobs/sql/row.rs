@@ -1,4 +1,4 @@
-//! Rows as jobs.
+//! Reads jobs from rows.
 
 use sqlx::any::AnyRow;
 use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
@@ -8,14 +8,14 @@ use crate::jobs::{Event, Job, JobId, JobState, Owner, Page, Timestamp};
 use crate::wire::RawJson;
 use singulate_planner::search::Incumbent;
 
-/// What a job is read from, but its result and its place in the queue.
+/// The columns of a job without its result and its place in the queue.
 const COLUMNS: &str = "jobs.id, jobs.state, jobs.scene_id, jobs.scene_sha256, jobs.created_at, jobs.started_at, \
     jobs.finished_at, jobs.expires_at, jobs.attempts, jobs.cost, jobs.lower_bound, jobs.problem, jobs.version, jobs.events";
 /// The places of all jobs: the whole queue is counted once.
 const PLACES: &str = "LEFT JOIN (SELECT id AS queued_id, ROW_NUMBER() OVER (ORDER BY priority DESC, turn, id) \
     AS queue_position FROM jobs WHERE state = 'queued') AS places ON places.queued_id = jobs.id";
 
-/// The place in the queue of a job with these: those that are claimed before it are counted.
+/// The place in the queue for this priority and turn: counts the jobs that are claimed before.
 pub(super) fn place(priority: &str, turn: &str, id: &str) -> String {
     format!(
         "(SELECT COUNT(*) + 1 FROM jobs AS other WHERE other.state = 'queued' AND (other.priority > {priority} \
@@ -23,7 +23,7 @@ pub(super) fn place(priority: &str, turn: &str, id: &str) -> String {
     )
 }
 
-/// A job by its name, of this owner or of anybody.
+/// A job by its id, of this owner or of any.
 pub(super) async fn find(
     connection: &mut AnyConnection,
     owner: Option<&Owner>,
@@ -42,14 +42,14 @@ pub(super) async fn find(
     query.fetch_optional(connection).await?.as_ref().map(job).transpose()
 }
 
-/// These jobs in this order; those that are gone are left out.
+/// These jobs in this order, without those that are gone.
 pub(super) async fn find_all(connection: &mut AnyConnection, ids: &[JobId]) -> Result<Vec<Job>, Error> {
     let (first, last) = match (ids.iter().min(), ids.iter().max()) {
         (Some(first), Some(last)) if first != last => (first, last),
         (Some(only), _) => return Ok(find(connection, None, *only).await?.into_iter().collect()),
         _ => return Ok(Vec::new()),
     };
-    // Jobs of one request have names close together, so hardly any others are read.
+    // Ids of one request are close together, so hardly any other rows are read.
     let text = format!("SELECT {COLUMNS}, jobs.result, queue_position FROM jobs {PLACES} WHERE id BETWEEN $1 AND $2");
     let query = sqlx::query(AssertSqlSafe(text)).bind(first.to_string()).bind(last.to_string());
     let mut found = query.fetch_all(connection).await?.iter().map(job).collect::<Result<Vec<Job>, Error>>()?;
@@ -62,7 +62,7 @@ pub(super) async fn find_all(connection: &mut AnyConnection, ids: &[JobId]) -> R
     Ok(jobs)
 }
 
-/// The owner's jobs, the latest first, without their results.
+/// The owner's jobs without their results, the latest first.
 pub(super) async fn list(connection: &mut AnyConnection, owner: &Owner, page: Page) -> Result<Vec<Job>, Error> {
     let mut text = format!("SELECT {COLUMNS}, NULL AS result, queue_position FROM jobs {PLACES} WHERE owner = $1");
     let mut values = vec![owner.as_str().to_owned()];

@@ -1,4 +1,4 @@
-//! Every question's way in.
+//! The entry point of all store calls.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -21,17 +21,17 @@ use crate::jobs::{
 use crate::metrics::{Metrics, StoreOutcome};
 use singulate_planner::search::Incumbent;
 
-/// How long it may take to end what is being written, and to bring a file in order.
+/// How long closing may wait for running writes and the checkpoint.
 const CLOSING: Duration = Duration::from_secs(3);
 
 /// Jobs in a database.
 pub(super) struct SqlStore {
-    /// The tasks that write have it too.
+    /// Shared with the tasks that write.
     database: Arc<Database>,
     metrics: Arc<Metrics>,
 }
 
-/// One write: all that is asked of `$change` happens, or nothing does. `$undo` gets an answer that nobody has heard.
+/// One write transaction: all of `$change` happens, or nothing. `$undo` gets a result that nobody received.
 macro_rules! change {
     ($store:expr, $operation:literal, |$change:ident| $work:expr) => {
         change!($store, $operation, |$change| $work, |_| async {})
@@ -59,7 +59,7 @@ impl SqlStore {
         Self { database: Arc::new(database), metrics }
     }
 
-    /// What only looks.
+    /// Runs a read.
     async fn look<T>(
         &self,
         operation: &'static str,
@@ -68,7 +68,7 @@ impl SqlStore {
         self.ask(operation, timeout(self.database.patience(), work)).await
     }
 
-    /// Every question passes here, under its name.
+    /// Runs and measures a call under its name.
     async fn ask<T>(
         &self,
         operation: &'static str,
@@ -143,7 +143,7 @@ impl Store for SqlStore {
 
     async fn sweep(&self, now: Timestamp) -> Result<Swept, StoreError> {
         let mut all = Swept::default();
-        // A batch at a time, so that nobody waits long for the one who sweeps.
+        // In batches, so that other writers wait briefly.
         loop {
             let (swept, more) = change!(self, "sweep", |change| sweep::batch(change, now)).await?;
             sweep::add(&mut all, swept);

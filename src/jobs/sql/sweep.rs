@@ -1,4 +1,4 @@
-//! What time brings: leases that end, jobs that waited too long, jobs to forget. And how many there are.
+//! Expiry: ended leases, overdue jobs, retention. And the counts of jobs.
 
 use sqlx::{AnyConnection, AssertSqlSafe, Error};
 
@@ -7,14 +7,14 @@ use super::herald::News;
 use super::row;
 use crate::jobs::{Counts, End, JobState, MAX_ATTEMPTS, Swept, Timestamp};
 
-/// Jobs of each kind in one transaction. Each that goes back to the queue counts the queue: with 10,000 in it some 2 ms.
+/// Jobs of each kind per transaction. Each requeued job counts the queue, some 2 ms for 10,000.
 const BATCH: usize = 200;
 
-/// One batch, and whether there is more to do. A job that goes back to the queue after its time may expire at once.
+/// One batch, and whether there is more to do. A requeued job whose time is over may expire at once.
 pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Swept, bool), Error> {
     let mut swept = Swept::default();
     let mut lost = overdue(change, "state = 'running' AND lease_ends <= $1 ORDER BY lease_ends", now).await?;
-    // Each is told its place in the queue, which those before it have to be back in by then.
+    // Each event holds the job's place in the queue, so jobs ahead of it are requeued first.
     lost.sort_by_key(Standing::order);
     for job in &lost {
         lose(change, job, &mut swept, now).await?;
@@ -35,14 +35,14 @@ pub(super) async fn batch(change: &mut Change<'_>, now: Timestamp) -> Result<(Sw
     Ok((swept, [lost, late, old].iter().any(|jobs| jobs.len() == BATCH)))
 }
 
-/// The jobs that meet the condition; those that somebody is just changing are left for next time.
+/// The jobs that meet the condition. Jobs locked by others are left for the next sweep.
 async fn overdue(change: &mut Change<'_>, condition: &str, now: Timestamp) -> Result<Vec<Standing>, Error> {
     let text = format!("{STANDING} WHERE {condition} LIMIT {BATCH}{}", change.dialect().locked_if_free());
     let query = sqlx::query(AssertSqlSafe(text)).bind(now.as_millis());
     query.fetch_all(change.connection()).await?.iter().map(Standing::read).collect()
 }
 
-/// A worker said nothing for a whole lease.
+/// Requeues or ends a job whose lease has ended.
 async fn lose(change: &mut Change<'_>, job: &Standing, swept: &mut Swept, now: Timestamp) -> Result<(), Error> {
     if job.cancel_requested {
         swept.cancelled.push(job.id);

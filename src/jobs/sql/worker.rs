@@ -1,4 +1,4 @@
-//! What workers ask: a job, more time, and to be done with it.
+//! Store calls of workers: claim, renew, note, finish, hand back.
 
 use sqlx::{AssertSqlSafe, Error, Row};
 
@@ -11,7 +11,7 @@ use super::row;
 use crate::jobs::{Claim, Claimed, End, EventKind, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp, WallClock};
 use singulate_planner::search::Incumbent;
 
-/// The lease begins once the job is ours: another's lock may have kept us waiting.
+/// The lease begins once the job is locked by us, since the lock may take time.
 pub(super) async fn claim(change: &mut Change<'_>, clock: &WallClock) -> Result<Option<Claimed>, Error> {
     let text = format!(
         "{STANDING} WHERE state = 'queued' AND expires_at > $1 ORDER BY priority DESC, turn, id LIMIT 1{}",
@@ -44,7 +44,7 @@ pub(super) async fn claim(change: &mut Change<'_>, clock: &WallClock) -> Result<
     }))
 }
 
-/// The lease begins once the job is ours, as in [`claim`].
+/// The lease begins once the job is locked, as in [`claim`].
 pub(super) async fn renew(change: &mut Change<'_>, claim: Claim, clock: &WallClock) -> Result<Renewal, Error> {
     let Some(job) = change.standing(claim.id).await?.filter(|job| job.held_by(claim)) else {
         return Ok(Renewal::Lost);
@@ -55,7 +55,7 @@ pub(super) async fn renew(change: &mut Change<'_>, claim: Claim, clock: &WallClo
     Ok(if job.cancel_requested { Renewal::Cancelled } else { Renewal::Held })
 }
 
-/// A second attempt begins its search anew, so what it says may be behind what is known.
+/// A second attempt searches anew, so its incumbent may be worse than the stored one.
 pub(super) async fn note(
     change: &mut Change<'_>,
     claim: Claim,
@@ -92,7 +92,7 @@ pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now
     }
     let by = Some(claim.fence);
     let ending = match end {
-        // A cancelled job has no problem, whatever became of its plan.
+        // A cancelled job has no problem, even if its plan failed.
         End::Failed(_) if job.cancel_requested => Ending { by, ..Ending::bare(JobState::Cancelled) },
         _ if job.cancel_requested => Ending::new(JobState::Cancelled, end, by),
         End::Succeeded(_) => Ending::new(JobState::Succeeded, end, by),
@@ -102,7 +102,7 @@ pub(super) async fn finish(change: &mut Change<'_>, claim: Claim, end: &End, now
     Ok(true)
 }
 
-/// A job whose caller wanted no more of it does not wait again only to be ended.
+/// A cancelled job ends instead of being queued again.
 pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timestamp) -> Result<bool, Error> {
     let Some(job) = change.standing(claim.id).await?.filter(|job| job.held_by(claim)) else { return Ok(false) };
     if job.cancel_requested {
@@ -113,7 +113,7 @@ pub(super) async fn hand_back(change: &mut Change<'_>, claim: Claim, now: Timest
     Ok(true)
 }
 
-/// A claim that nobody has heard of is handed back.
+/// Hands back a claim that nobody received.
 pub(super) async fn give_back(database: &Database, claim: Claim, now: Timestamp) -> Result<(), Error> {
     let mut change = Change::begin(database, Decision::default()).await?;
     hand_back(&mut change, claim, now).await?;

@@ -1,4 +1,4 @@
-//! Answers as they are written and as they are read again.
+//! Answers, written and read again.
 
 use core::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Bodies that are no JSON, and fields that are there twice.
+//! Bodies that are not JSON, and repeated fields.
 
 use serde_json::json;
 
@@ -9,7 +9,7 @@ fn refused(body: &[u8]) -> Problem {
     read_scene(body, &RequestLimits::default()).unwrap_err()
 }
 
-/// Assert that the whole sentence about this body is so.
+/// Assert the whole sentence about this body.
 #[track_caller]
 fn says(body: &str, sentence: &str) {
     let problem = refused(body.as_bytes());
@@ -34,7 +34,7 @@ fn a_number_that_is_none_is_named_with_its_object() {
     for word in ["NaN", "nan", "-NaN", "Infinity", "-Infinity", "inf", "-inf", "+Inf"] {
         let told = format!("{word} stands at line 5 column 20, in /objects/0/x of object 'a'; {only}");
         says(&SCENE.replacen("0.5", word, 1), &told);
-        // The id stands behind it.
+        // The id comes after it.
         let told = format!("{word} stands at line 6 column 9, in /objects/1/x of object 'süß'; {only}");
         says(&SCENE.replacen("\"x\": 0.2", &format!("\"x\": {word}"), 1), &told);
     }
@@ -133,10 +133,10 @@ fn a_field_that_is_there_twice_is_a_fault_at_its_place() {
     assert_eq!((problem.status(), problem.kind()), (422, ProblemKind::InvalidRequest));
     assert_eq!(problem.errors()[0].detail, "'x' is there a second time, at line 5 column 25");
     has_faults(&problem, &[("repeated_field", "/objects/0/x"), ("repeated_field", "/table"), ("wrong_type", "/table")]);
-    // Spelt otherwise it is the same name.
+    // A name with an escape is the same name.
     let problem = refused(SCENE.replacen("\"x\": 0.5", "\"x\": 0.5, \"\\u0078\": 0.5", 1).as_bytes());
     has_faults(&problem, &[("repeated_field", "/objects/0/x")]);
-    // A colon in a text is none between a name and its value.
+    // A colon in a string does not follow a name.
     let named = SCENE.replacen("\"a\"", "\"a:\\\"b:\"", 1).replacen("\"target\": \"a\"", "\"target\": \"a:\\\"b:\"", 1);
     assert!(read_scene(named.as_bytes(), &RequestLimits::default()).is_ok());
 }

@@ -1,11 +1,11 @@
-//! How deep discs may overlap, and who says so.
+//! The overlap tolerance and its limits.
 
 use serde_json::{Value, json};
 
 use super::{has_faults, read, scene, with};
 use crate::wire::{RequestLimits, read_scene};
 
-/// The scene with `b` so far into `a`.
+/// The scene with `b` this deep in `a`.
 fn overlapping(depth: f64) -> Value {
     with("/objects/1", json!({"id": "b", "x": 0.45 - depth, "y": 0.2, "radius": 0.075}))
 }
@@ -96,7 +96,7 @@ fn a_request_says_how_deep_its_discs_may_overlap() {
     assert_eq!(request.warnings[0].detail, "overlaps 'a' by 0.003000 m (tolerance 0.003 m)");
     assert!((request.overlap_tolerance - 0.003).abs() < 1e-15);
     assert!(read(&with_tolerance(overlapping(0.01), json!(0.01)).to_string()).is_ok());
-    // Less than the default is a tolerance too.
+    // A tolerance below the default is valid.
     has_faults(
         &read(&with_tolerance(overlapping(0.0005), json!(0)).to_string()).unwrap_err(),
         &[("overlap", "/objects/1")],
@@ -113,13 +113,13 @@ fn a_tolerance_beyond_the_services_is_a_fault_of_its_own() {
         (json!(3), "out_of_range"),
         (json!("3 mm"), "wrong_type"),
     ] {
-        // An overlap that some tolerance admits is not told beside it.
+        // An overlap that some tolerance allows is not reported as well.
         let problem = read(&with_tolerance(overlapping(0.003), value).to_string()).unwrap_err();
         has_faults(&problem, &[(code, pointer)]);
     }
     let deeper = with_tolerance(overlapping(0.02), json!("3 mm"));
     has_faults(&read(&deeper.to_string()).unwrap_err(), &[("wrong_type", pointer), ("overlap", "/objects/1")]);
-    // What is wrong with another setting does not change the tolerance.
+    // A fault of another setting does not change the tolerance.
     let mut body = with_tolerance(overlapping(0.003), json!(0.004));
     body["settings"]["objective"] = json!("fastest");
     has_faults(&read(&body.to_string()).unwrap_err(), &[("unknown_value", "/settings/objective")]);

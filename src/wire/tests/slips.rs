@@ -1,4 +1,4 @@
-//! Numbers that look like another unit, and what the sentences say of them.
+//! Numbers that look like another unit, and their warnings.
 
 use serde_json::{Value, json};
 
@@ -26,7 +26,7 @@ fn fault(body: &Value, code: &str, pointer: &str) -> String {
     problem.errors()[0].detail.clone()
 }
 
-/// The scene with some lengths taken times a factor.
+/// The scene with some lengths multiplied by a factor.
 fn scaled(factor: f64, whose: &[&str]) -> Value {
     fn scale(value: &mut Value, factor: f64) {
         match value {
@@ -97,7 +97,7 @@ fn a_gripper_in_metres_among_millimetres_is_a_warning_and_so_is_the_reverse() {
     let mut overlapping = pairs(&fields);
     overlapping.extend(pairs(&[("fingers_overlap", "/objects/0"), ("fingers_overlap", "/objects/1")]));
     assert_eq!(places(&scaled(1000.0, &["gripper"])), overlapping);
-    // All in one unit: the answer is right but for the unit.
+    // All in one unit: the answer is right except for the unit.
     assert_eq!(places(&scaled(1000.0, &["table", "objects", "gripper"])), []);
 }
 

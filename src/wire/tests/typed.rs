@@ -1,4 +1,4 @@
-//! The two ways to read a body lead to the same request.
+//! Both ways to read a body give the same request.
 
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};

@@ -89,7 +89,7 @@ fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Fa
     None
 }
 
-/// A sentence that says how the target is freed.
+/// A sentence that describes how the target is freed.
 fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
     let named: Vec<_> =
         lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();

@@ -25,11 +25,11 @@ struct Question {
 enum Sight {
     /// The size of a least hitting set, or the limit if that is no larger.
     Answer(usize),
-    /// Other questions have to be answered first.
+    /// Other questions must be answered first.
     Fork(Fork),
 }
 
-/// Reduces the family, bounds what is left, and fixes elements by reduced cost.
+/// Reduces the family, bounds the rest, and fixes elements by reduced cost.
 fn look(question: Question, meter: &mut Meter<'_>) -> Result<Sight, Interrupted> {
     let Question { mut family, limit, mut reduced } = question;
     let mut counted = 0;

@@ -1,11 +1,11 @@
-//! Whether the parts of a stated answer agree with each other and with what was proven.
+//! Checks that the parts of a stated answer agree with each other and with the proof.
 
 use crate::plan::claim::{Claim, VerdictName};
 
 use super::bound::Proof;
 use super::fault::{FaultCode, Faults};
 
-/// The cost of the stated plan: what was counted, or else what is said. `None` where the verdict comes without a plan.
+/// The cost of the stated plan: counted if possible, otherwise as stated. `None` for a verdict without a plan.
 fn cost(claim: &Claim) -> Option<u64> {
     if matches!(claim.verdict, Some(VerdictName::NoSpace | VerdictName::TimedOut | VerdictName::Deadlock)) {
         return None;
@@ -68,7 +68,7 @@ fn costs(claim: &Claim, faults: &mut Faults) {
     }
 }
 
-/// The stated bound is proven, and `optimal` says what cost and bound say.
+/// The stated bound is proven, and `optimal` agrees with cost and bound.
 pub(super) fn bounds(claim: &Claim, proof: &Proof, faults: &mut Faults) {
     let (cost, proven) = (cost(claim), proof.bound as u64);
     if let Some(stated) = claim.lower_bound {

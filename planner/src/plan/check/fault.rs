@@ -1,11 +1,11 @@
-//! What can be wrong with a stated answer, as data.
+//! The faults of a stated answer, as data.
 
 use crate::scene::ObjectIndex;
 
-/// One thing that is wrong with a stated answer.
+/// One fault of a stated answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// What kind.
+    /// The kind of fault.
     pub code: FaultCode,
     /// The position of the relocation, from 0; `None` for the answer as a whole.
     pub step: Option<usize>,
@@ -15,12 +15,12 @@ pub struct Fault {
     pub detail: String,
 }
 
-/// A figure for people: to the checker's own precision, or as it is where that says nothing.
+/// A figure for humans: to the checker's precision, or unrounded if that would hide it.
 pub(super) fn figure(value: f64) -> String {
     if value.abs() < 1e6 { format!("{value:.9}") } else { format!("{value:e}") }
 }
 
-/// The kinds of fault. Those that end in `Unconfirmed` say that time ran out, not that anything is wrong.
+/// The kinds of fault. Names that end in `Unconfirmed` mean that time ran out, not that the answer is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultCode {
     /// An id names no object of the scene.
@@ -31,7 +31,7 @@ pub enum FaultCode {
     TargetMoved,
     /// A yaw, slack or coordinate is not finite, or too large to be resolved.
     NumberOutOfRange,
-    /// The object does not stand where the step says.
+    /// The object is not at the place in the step.
     WrongFrom,
     /// The new place sticks out over the table's edge.
     OffTable,
@@ -55,7 +55,7 @@ pub enum FaultCode {
     UnexpectedPart,
     /// The stated cost is not the number of relocations, or a plan without relocations is not called graspable.
     WrongCost,
-    /// `optimal` says something else than cost and bound.
+    /// `optimal` contradicts cost and bound.
     WrongOptimal,
     /// The stated bound is above the cost of the plan that comes with it.
     BoundAboveCost,
@@ -69,7 +69,7 @@ pub enum FaultCode {
     LandmarkRefuted,
     /// A lock without the target.
     LockWithoutTarget,
-    /// A member of a lock has a free yaw in spite of all the others.
+    /// A member of a lock has a free yaw even with all other members in place.
     LockMemberFree,
     /// The core is not within the greatest lock.
     CoreOutsideBlocked,
@@ -120,23 +120,23 @@ impl FaultCode {
     }
 }
 
-/// What the checker found.
+/// The checker's report.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
-    /// Empty for an answer that holds. No more than [`MAX_FAULTS`].
+    /// Empty if the answer holds. At most [`MAX_FAULTS`].
     pub faults: Vec<Fault>,
     /// The greatest bound that the landmarks prove, as far as time allowed.
     pub proven_bound: usize,
-    /// The stated landmarks that were seen to hold, none within another: they alone prove `proven_bound`.
+    /// The stated landmarks found sound, none a superset of another: they alone prove `proven_bound`.
     pub sound_landmarks: Vec<Vec<ObjectIndex>>,
     /// True if the budget ended before everything was checked.
     pub interrupted: bool,
 }
 
-/// The most faults that one answer gets: past that nobody reads on.
+/// The most faults of one answer.
 pub const MAX_FAULTS: usize = 1000;
 
-/// A list of faults that stops growing at [`MAX_FAULTS`]. What is past it costs no sentence either.
+/// A list of faults that stops growing at [`MAX_FAULTS`]. Later faults are not even formatted.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     list: Vec<Fault>,

@@ -41,10 +41,10 @@ impl Finger {
         Vector2::new(along, across).norm()
     }
 
-    /// The offset, from 0, at which a point at `distance` comes nearest to the finger. Seen from there the distance only
-    /// grows, to offset 0 as well as to offset π:
-    /// a point that comes no further than the tip is nearest straight ahead; one beyond the outer corners is nearest on
-    /// the ray through a corner; one between enters the finger through the tip.
+    /// The offset, from 0, at which a point at `distance` comes nearest to the finger. From there the distance grows
+    /// monotonically, to offset 0 as well as to offset π. A point no further than the tip is nearest straight ahead;
+    /// one beyond the outer corners is nearest on the ray through a corner; one between enters the finger through the
+    /// tip.
     fn nearest_offset(&self, distance: f64) -> f64 {
         let across = if distance >= self.corner_distance() {
             self.half

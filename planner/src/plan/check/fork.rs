@@ -117,7 +117,7 @@ impl Fork {
         }
     }
 
-    /// Takes over the families of `again`, which is this fork made anew.
+    /// Takes over the families of `again`, which is the same fork, computed again.
     pub(super) fn recall(&mut self, again: Self) {
         self.size = again.size;
         match (&mut self.way, again.way) {

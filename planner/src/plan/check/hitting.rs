@@ -64,7 +64,7 @@ fn search(
     branch(&component, known, most_kept, meter)
 }
 
-/// The bound, whether or not the budget ended: any multipliers give one.
+/// The bound, even if the budget ended: any multipliers give one.
 fn reached(lagrangian: Result<LagrangianBound, LagrangianBound>) -> LagrangianBound {
     lagrangian.unwrap_or_else(|cut| cut)
 }
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use crate::budget::{Budget, Unlimited};
 
-    /// The same with all memory and with none to speak of.
+    /// The same with full memory and with almost none.
     fn solve(sets: &[Vec<usize>], width: usize) -> Hits {
         let solve = |most_kept| least_hits(sets.to_vec(), width, most_kept, &mut Meter::new(&Budget::unlimited()));
         let hits = solve(MOST_KEPT);
@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// The 15 edges of Petersen's graph, so many times over: nothing here is decided by reduction alone.
+    /// Copies of Petersen's graph with 15 edges each: nothing here is decided by reduction alone.
     fn petersen(copies: usize) -> (Vec<Vec<usize>>, usize) {
         let edges = (0..5).flat_map(|n| [(n, (n + 1) % 5), (n, n + 5), (n + 5, (n + 2) % 5 + 5)]);
         let edges: Vec<(usize, usize)> = edges.collect();

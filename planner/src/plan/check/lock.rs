@@ -1,4 +1,4 @@
-//! Whether a stated deadlock holds: its members hold each other, the target among them.
+//! Checks a stated deadlock: its members, among them the target, block each other.
 
 use crate::budget::Interrupted;
 use crate::plan::claim::{Claim, ClaimedDeadlock};

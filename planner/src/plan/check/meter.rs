@@ -5,15 +5,15 @@ use crate::budget::{Budget, Interrupted};
 /// Counts work in units of about a microsecond and asks the budget once per [`BEAT`].
 pub(super) struct Meter<'a> {
     budget: &'a Budget<'a>,
-    /// Units that may still be spent before the next question.
+    /// Units left before the next look at the budget.
     left: usize,
 }
 
 /// Units between two looks at the budget: about 100 µs.
 const BEAT: usize = 100;
 
-/// Units that a replay may spend whatever the budget says, about 50 ms: a plan that was found in the last moment must
-/// still be replayed before it is served. Only the steps of a stranger are longer.
+/// Units that a replay may spend even after the budget has ended, about 50 ms: a plan found at the last moment must
+/// still be replayed before it is served. Only plans from outside are longer.
 const PATIENCE: usize = 50_000;
 
 impl<'a> Meter<'a> {
@@ -21,7 +21,7 @@ impl<'a> Meter<'a> {
         Self { budget, left: BEAT }
     }
 
-    /// One that starts to ask late.
+    /// A meter that asks only after `PATIENCE`.
     pub(super) fn patient(budget: &'a Budget<'a>) -> Self {
         Self { budget, left: PATIENCE }
     }

@@ -1,9 +1,9 @@
 //! The independent checker: replays a stated answer on the scene with its own arithmetic.
 //!
-//! It shares nothing with the rooms that make answers: only the scene, the budget and the stated answer come in, so that
-//! a fault in geometry, knowledge, search or placement can't hide behind itself. Reading order: `replay` carries the
-//! steps out (`place`, `finger`); `yaws` and `rings` say which objects hold which; on them stand `lock`,
-//! `chain` and `needed`; `hitting` and `bound` confirm the bound; `claims` compares the parts of the answer.
+//! It shares only the scene, the budget and the stated answer with the rooms that make answers, so that it does not
+//! repeat a fault of geometry, knowledge, search or placement. Reading order: `replay` carries out the steps (`place`,
+//! `finger`); `yaws` and `rings` determine which objects block which; `lock`, `chain` and `needed` build on them;
+//! `hitting` and `bound` confirm the bound; `claims` compares the parts of the answer.
 
 mod bound;
 mod branch;
@@ -45,19 +45,19 @@ use rings::{Leaning, Rings};
 /// allowed, so a plan that touches exactly must pass in spite of rounding.
 const TOLERANCE: f64 = 1e-9;
 
-/// The checker of one scene: what it prepares and learns serves answer after answer, whatever their targets.
+/// The checker of one scene. Its preparations are shared by all answers, whatever their targets.
 pub struct Checker<'s> {
     scene: &'s Scene,
     names: Names<'s>,
     start: Rc<Tree>,
-    /// Chains on rings that lean to what is blocked.
+    /// Chains on rings that lean to blocked.
     blocked: Chain<'s>,
-    /// Made for the first answer with needed objects.
+    /// Rings that lean to free, made for the first answer with needed objects.
     free: Option<Rings<'s>>,
 }
 
 impl<'s> Checker<'s> {
-    /// Prepare; near-linear in the scene.
+    /// Prepares the scene; near-linear in its size.
     pub fn new(scene: &'s Scene) -> Self {
         let start = Tree::of_start(scene);
         let blocked = Chain::new(Rings::new(scene, &start, Leaning::Blocked));

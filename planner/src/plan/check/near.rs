@@ -1,7 +1,7 @@
-//! Which discs are near: a tree of boxes over the objects at the start, and one over the places that steps put them to.
+//! Finds near discs: one tree of boxes over the objects at the start, and one over the new places of the steps.
 //!
-//! All places are known before the replay begins, so no tree ever changes; a caller skips the places that are empty at its
-//! moment. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
+//! All places are known before the replay begins, so the trees never change; a caller skips places that are empty at
+//! its step. Each box knows the largest radius in it, so one huge disc costs only the boxes above it.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -14,7 +14,7 @@ use crate::scene::{COORDINATE_RANGE, Disc, ObjectIndex, Scene};
 
 use super::names::{Names, relocatable};
 
-/// The number of a place. The n-th object stands on place n at the start.
+/// The number of a place. At the start, the n-th object stands on place n.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PlaceIndex(usize);
 
@@ -22,16 +22,16 @@ pub(super) struct PlaceIndex(usize);
 pub(super) struct Places {
     start: Rc<Tree>,
     steps: Tree,
-    /// Whose the places of the steps are.
+    /// Per place of the steps the object put there.
     owners: Vec<ObjectIndex>,
-    /// For each step its new place; `None` where the step can't be carried out.
+    /// For each step its new place; `None` if the step can't be carried out.
     of_steps: Vec<Option<PlaceIndex>>,
 }
 
-/// Where each object stands at some moment.
+/// The place of each object at a step.
 #[derive(Default)]
 pub(super) struct Standing {
-    /// The places of those that have been moved.
+    /// The places of objects that were moved.
     moved: HashMap<ObjectIndex, PlaceIndex>,
 }
 
@@ -64,7 +64,7 @@ struct Bounds {
 /// Places in a box that is not divided further.
 const LEAF: usize = 8;
 
-/// True for a coordinate that can be told from its neighbours: a plan outside it is not on any table.
+/// True if doubles resolve the coordinates well enough. A plan outside this range is on no table.
 pub(super) fn resolvable(point: Point2<f64>) -> bool {
     let (min, max) = (10.0 * COORDINATE_RANGE.0, 10.0 * COORDINATE_RANGE.1);
     (min..=max).contains(&point.x) && (min..=max).contains(&point.y)
@@ -92,7 +92,7 @@ impl Places {
         start.get(place).copied().unwrap_or_else(|| self.steps.discs[place - start.len()])
     }
 
-    /// Whose place it is.
+    /// The object that belongs to the place.
     pub(super) fn owner(&self, PlaceIndex(place): PlaceIndex) -> ObjectIndex {
         place.checked_sub(self.start.discs.len()).map_or_else(|| ObjectIndex::new(place), |step| self.owners[step])
     }
@@ -123,7 +123,7 @@ impl Tree {
         tree
     }
 
-    /// The objects of a scene where they stand at the start: the n-th disc is the n-th object's.
+    /// The objects of a scene at their places at the start: the n-th disc is the n-th object's.
     pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
         Rc::new(Self::new(scene.objects().iter().map(|object| object.disc()).collect()))
     }

@@ -1,4 +1,4 @@
-//! Whether the stated derivation frees the target: its objects can be lifted in this order, places left aside.
+//! Checks a stated derivation: its objects can be lifted in this order, and free the target. Places are ignored.
 
 use crate::budget::Interrupted;
 use crate::scene::{ObjectIndex, Scene};
@@ -15,7 +15,7 @@ struct Lifting<'a, 's> {
     lifted: Vec<bool>,
 }
 
-/// Lift the needed objects, then look at the target. The rings lean to what is free.
+/// Lifts the needed objects, then tries the target. The rings lean to free.
 pub(super) fn check<'s>(
     scene: &Scene,
     names: &Names<'s>,

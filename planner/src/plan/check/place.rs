@@ -1,4 +1,4 @@
-//! Whether a disc may stand where a step puts it: on the table, outside every keep-out, clear of the others.
+//! Checks a new place: on the table, outside every keep-out, clear of other objects.
 
 use nalgebra::Vector2;
 
@@ -87,8 +87,8 @@ impl Landing<'_> {
         owner != self.object && self.standing.place(owner) == place
     }
 
-    /// Every other object is at least the margin away. Pairs that stood closer at the start need only what they had, as
-    /// the scene itself asks no more of them.
+    /// Every other object is at least the margin away. Pairs that were closer at the start need only keep that
+    /// distance, since the scene allows it.
     fn clear(&self, faults: &mut Faults, meter: &mut Meter<'_>) -> Result<(), Interrupted> {
         let margin = self.scene.gripper().margin();
         let mut visited = 0;
@@ -110,7 +110,7 @@ impl Landing<'_> {
 
     fn gap_as_stated(&self, stated: f64, faults: &mut Faults) {
         let real = self.places.least_gap(self.to.centre, |place| self.taken(place)) - self.to.radius;
-        // NaN does not agree with anything.
+        // NaN agrees with nothing.
         let agrees = (real - stated).abs() <= TOLERANCE;
         if !agrees {
             let detail = || format!("the least gap is {real:.9} m, not {} m", figure(stated));

@@ -1,4 +1,4 @@
-//! Carries the steps out, one after the other, and looks at every grasp, every release and every new place.
+//! Replays the steps in order and checks every grasp, every release and every new place.
 
 use core::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use super::names::Names;
 use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
 
-/// The largest yaw whose digits still resolve 1e-9 rad after whole turns are taken off.
+/// The largest yaw whose digits still resolve 1e-9 rad after reduction modulo whole turns.
 const MAX_YAW: f64 = 1e6;
 
 struct Replay<'a> {
@@ -29,7 +29,7 @@ struct Replay<'a> {
 }
 
 /// Replay the stated steps, then grasp the target. A step that can't be carried out (unknown object, no such place) is
-/// a fault and is passed over; any other faulty step is carried out, so that one fault does not breed more.
+/// a fault and is skipped. Any other faulty step is carried out, so that one fault does not cause more.
 pub(super) fn replay<'a>(
     scene: &'a Scene,
     places: &'a Places,
@@ -46,7 +46,7 @@ pub(super) fn replay<'a>(
     replayed
 }
 
-/// True for an answer that says how the target is grasped in the end.
+/// True for an answer with a final grasp of the target.
 pub(super) fn ends_in_grasp(claim: &Claim) -> bool {
     match claim.verdict {
         Some(VerdictName::Graspable | VerdictName::Relocate) => true,
@@ -90,7 +90,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Say why a step has no place.
+    /// Reports why a step has no place.
     fn refuse(&mut self, at: usize, object: ObjectIndex, to: Point2<f64>) {
         let stated = self.scene.object(object);
         let mut refuse = |code, why: &str| self.faults.of_step(code, at, stated.id(), || why.to_owned());
@@ -110,7 +110,7 @@ impl Replay<'_> {
 
     fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Point2<f64>) {
         let real = self.disc(object).centre;
-        // NaN does not agree with anything.
+        // NaN agrees with nothing.
         let agrees = (real - stated).norm() <= TOLERANCE;
         if !agrees {
             let detail = || format!("stands at {}, not at {}", point(real), point(stated));
@@ -118,7 +118,7 @@ impl Replay<'_> {
         }
     }
 
-    /// The band of yaws (rad, on each side) that must be free, if the figures make sense.
+    /// The band of yaws (rad, on each side) that must be free, if the figures are valid.
     fn band(&mut self, step: Option<usize>, object: ObjectIndex, grasp: ClaimedGrasp) -> Option<f64> {
         let (id, gripper) = (self.scene.object(object).id(), self.scene.gripper());
         let slack = grasp.slack.unwrap_or(0.0);
@@ -128,7 +128,7 @@ impl Replay<'_> {
             return None;
         }
         let (least, most) = (gripper.yaw_tolerance(), PI / f64::from(gripper.fingers()));
-        // Where nothing blocks, the slack is π/k even if the tolerance is more.
+        // Without obstacles the slack is π/k even if the tolerance is more.
         let in_range = (least.min(most) - TOLERANCE..=most + TOLERANCE).contains(&slack);
         if grasp.slack.is_some() && !in_range {
             let detail = || format!("slack {} is not between {least:.9} and {most:.9} rad", figure(slack));

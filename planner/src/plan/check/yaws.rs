@@ -1,4 +1,4 @@
-//! Which yaws one obstacle blocks, found by cutting a circle with an outline.
+//! The yaws that one obstacle blocks, found by cutting a circle with an outline.
 //!
 //! Seen from the grasped object, with the finger along +x, the obstacle's centre runs on a circle while the yaw turns. It
 //! blocks while it is inside the finger grown by ρ: a rectangle with rounded corners. Every angle at which the circle can
@@ -105,7 +105,7 @@ mod tests {
 
     use super::*;
 
-    /// What the words of the rule say: some finger is nearer to the obstacle's centre than ρ.
+    /// The rule as stated: some finger is nearer to the obstacle's centre than ρ.
     fn depth(finger: &Finger, fingers: u32, obstacle: Vector2<f64>, rho: f64, yaw: f64) -> f64 {
         let period = core::f64::consts::TAU / f64::from(fingers);
         (0..fingers)
@@ -125,7 +125,7 @@ mod tests {
         for step in 0..720 {
             let yaw = period * (f64::from(step) + 0.37) / 720.0;
             let depth = depth(finger, fingers, obstacle, rho, yaw);
-            // Nearer to the edge than rounding nobody can tell.
+            // Within rounding of the edge, both answers are right.
             if depth.abs() > 1e-12 * (rho + obstacle.norm()) {
                 let blocked = yaws.iter().any(|[lo, hi]| (*lo..=*hi).contains(&yaw));
                 prop_assert_eq!(blocked, depth > 0.0, "yaw {} depth {} yaws {:?}", yaw, depth, yaws);

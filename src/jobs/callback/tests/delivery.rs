@@ -1,4 +1,4 @@
-//! What is delivered, how often, and to whom in spite of whom.
+//! Deliveries, repeats, and receivers that must not delay each other.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -15,14 +15,14 @@ use crate::jobs::callback::deliver::{CallbackDelivery, MAX_IN_FLIGHT, MAX_TRIES,
 use crate::jobs::callback::{CallbackAllow, CallbackSecret};
 use crate::jobs::{Delivery, JobId, JobSettings, Timestamp};
 
-/// As in service, but for the pauses between tries.
+/// As in service, except for shorter pauses between tries.
 pub(super) const QUICK: Duration = Duration::from_millis(1);
 
 pub(super) fn secret() -> CallbackSecret {
     "0123456789abcdef".parse().unwrap()
 }
 
-/// No try is cut off in a test that doesn't want it, however slow the machine.
+/// No try is cut off unless a test wants it, however slow the machine.
 pub(super) fn pace() -> Pace {
     let long = Duration::from_secs(60);
     Pace { connecting: long, a_try: long, first_pause: QUICK, lease: 2 * long, poll: QUICK, farewell: QUICK }
@@ -123,7 +123,7 @@ async fn an_answer_without_end_is_read_no_further_and_counts_by_its_status() {
 async fn receivers_that_hang_hold_up_nobody_for_more_than_one_try() {
     let store = Arc::new(Callbacks::default());
     let (hanging, quick) = (Receiver::start(&[Manner::Hang]).await, Receiver::start(&[status(200)]).await);
-    // Far more than may be in flight, all of them due before the other.
+    // Far more than may be in flight, all due before the other.
     let held: Vec<JobId> = (0..200).map(|_| store.add(&hanging.url())).collect();
     let id = store.add(&quick.url());
     let short = Duration::from_millis(500);
@@ -143,7 +143,7 @@ async fn no_more_than_so_many_are_under_way() {
     }
     let _running = start(&store, pace());
     until("as many as may be", || receiver.received().len() == MAX_IN_FLIGHT).await;
-    // A wrong one more has time to come.
+    // Time for a second, wrong delivery to arrive.
     tokio::time::sleep(Duration::from_millis(100)).await;
     assert_eq!(receiver.received().len(), MAX_IN_FLIGHT);
 }
@@ -172,7 +172,7 @@ async fn what_was_under_way_at_the_end_goes_out_after_a_restart() {
     let (stop, running) = start(&store, Pace { poll: Duration::from_secs(600), ..pace });
     until("the first message", || receiver.received().len() == 1).await;
     drop(stop);
-    // Far sooner than the try's own end.
+    // Far sooner than the time limit of the try.
     running.await.unwrap();
     assert!(store.settled(id).is_empty());
     let _running = start(&store, pace);

@@ -1,4 +1,4 @@
-//! A receiver of callbacks on a real socket, and what its tests wait with.
+//! A receiver of callbacks on a real socket, and helpers to wait for it.
 
 use core::time::Duration;
 use std::net::SocketAddr;
@@ -9,15 +9,15 @@ use tokio::net::TcpListener;
 use tokio::time::sleep;
 use tokio_rustls::TlsAcceptor;
 
-/// How long a condition may take on a machine that is busy with other things.
+/// How long a condition may take on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// What a receiver does with a message.
+/// How a receiver answers.
 #[derive(Clone)]
 pub(super) enum Manner {
-    /// Answers with this status, and these header lines.
+    /// Answers with this status and these header lines.
     Answer(u16, String),
-    /// Says nothing, for ever.
+    /// Never answers.
     Hang,
     /// Answers 200 and a body that never ends.
     Babble,
@@ -47,7 +47,7 @@ impl Message {
 }
 
 impl Receiver {
-    /// One that treats its messages like this, the last manner for ever.
+    /// A receiver that answers its messages in these manners; the last one repeats.
     pub(super) async fn start(manners: &[Manner]) -> Self {
         Self::start_with(manners, None).await
     }
@@ -120,7 +120,7 @@ async fn read(stream: &mut (impl AsyncRead + Unpin)) -> Option<Message> {
     }
 }
 
-/// Waits until it is so.
+/// Waits until the condition holds.
 pub(super) async fn until(what: &str, mut so: impl FnMut() -> bool) {
     let waiting = async {
         while !so() {

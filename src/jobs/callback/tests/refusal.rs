@@ -1,4 +1,4 @@
-//! Where callbacks don't go, and whom they don't trust.
+//! Destinations and certificates that callbacks refuse.
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::sync::Arc;
@@ -44,7 +44,7 @@ async fn a_name_is_called_only_where_it_may_lead() {
         ("erp.example.com,127.0.0.0/8", mixed, false),
         ("erp.example.com,127.0.0.0/8", nowhere, false),
         ("erp.example.com,127.0.0.0/8", unknown, false),
-        // Listed no more since the job was accepted.
+        // Removed from the list since the job was accepted.
         ("127.0.0.0/8", here, false),
     ];
     for (at, (allow, lookup, expected)) in table.into_iter().enumerate() {

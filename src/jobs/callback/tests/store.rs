@@ -1,4 +1,4 @@
-//! As much of a store as callbacks need, in memory.
+//! An in-memory store with the calls that callbacks need.
 
 use core::time::Duration;
 use std::sync::Mutex;
@@ -19,7 +19,7 @@ pub(super) struct Callbacks {
 }
 
 impl Callbacks {
-    /// A job has ended, and this receiver wants to know.
+    /// Adds an ended job with a callback to this URL.
     pub(super) fn add(&self, url: &str) -> JobId {
         let job = ended();
         let id = job.id;
@@ -29,7 +29,7 @@ impl Callbacks {
         id
     }
 
-    /// What has come of the job's tries so far.
+    /// The outcomes of the job's tries so far.
     pub(super) fn settled(&self, id: JobId) -> Vec<(u32, Delivery)> {
         let settled = self.settled.lock().unwrap();
         settled.iter().filter(|(job, ..)| *job == id).map(|(_, attempt, delivery)| (*attempt, *delivery)).collect()
