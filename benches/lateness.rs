@@ -37,7 +37,7 @@ use tokio::net::TcpListener;
 
 use client::{Client, post};
 use ends::End;
-use timer::{Timer, p99};
+use timer::{Tick, Timer, p99};
 
 const GRACE: Duration = Duration::from_millis(50);
 /// For a computation that is to end before its time.
@@ -108,6 +108,12 @@ impl Late {
     fn by(&self) -> Duration {
         self.end.saturating_duration_since(self.due)
     }
+
+    /// The longest part of it in which some thread of the timer should have been awake and was not.
+    fn machines(&self, ticks: &[Tick]) -> Duration {
+        let both = |(end, late): &Tick| end.min(&self.end).saturating_duration_since((*end - *late).max(self.due));
+        ticks.iter().map(both).max().unwrap_or_default()
+    }
 }
 
 /// Compares rows with what they are allowed: the grace, and the machine's own lateness at that very time.
@@ -142,7 +148,8 @@ impl<'t> Judge<'t> {
     }
 
     fn excess(&self, row: &[Late]) -> Duration {
-        let own = |late: &Late| self.timer.during(late.due, late.end).min(MAX_OWN);
+        let ticks = self.timer.ticks();
+        let own = |late: &Late| late.machines(&ticks).min(MAX_OWN);
         row.iter().map(|late| late.by().saturating_sub(own(late))).max().unwrap_or_default()
     }
 

@@ -71,7 +71,7 @@ async fn call(app: &Arc<App>, traceparent: &str) {
         "objects": [{"id": "a", "x": 0.5, "y": 0.5, "radius": 0.1}], "target": "a"}"#;
     let request = Request::post("/v1/plans").header(header::CONTENT_TYPE, "application/json");
     let request = request.header("traceparent", traceparent).body(Body::from(body)).unwrap();
-    assert_eq!(router(Arc::clone(app)).oneshot(request).await.unwrap().status(), 200);
+    assert_eq!(router(app).oneshot(request).await.unwrap().status(), 200);
 }
 
 #[test]

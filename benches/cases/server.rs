@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 /// A server on a free port. Dropping it kills it.
 pub(crate) struct Server {
     child: Child,
-    /// Kept open: whoever writes where nobody reads is ended.
+    /// Kept open: a program that writes where nobody reads is ended.
     _out: BufReader<ChildStdout>,
     address: SocketAddr,
 }

@@ -15,11 +15,7 @@ pub(crate) fn p99(sorted: &[Duration]) -> Duration {
 pub(crate) struct Timer(Arc<Mutex<Vec<Tick>>>);
 
 /// A sleep: its end, and how much later that was than it should have been.
-#[derive(Clone, Copy)]
-struct Tick {
-    end: Instant,
-    late: Duration,
-}
+pub(crate) type Tick = (Instant, Duration);
 
 impl Timer {
     /// The threads end when this is dropped.
@@ -32,22 +28,15 @@ impl Timer {
         Self(ticks)
     }
 
+    /// All so far.
+    pub(crate) fn ticks(&self) -> MutexGuard<'_, Vec<Tick>> {
+        self.0.lock().expect("no thread panics with it")
+    }
+
     pub(crate) fn p99(&self) -> Duration {
-        let mut lateness: Vec<Duration> = self.ticks().iter().map(|tick| tick.late).collect();
+        let mut lateness: Vec<Duration> = self.ticks().iter().map(|(_, late)| *late).collect();
         lateness.sort_unstable();
         p99(&lateness)
-    }
-
-    /// The worst part of a lateness that lies between two moments; both have passed.
-    #[allow(dead_code, reason = "one of the benches asks for the percentile alone")]
-    pub(crate) fn during(&self, from: Instant, to: Instant) -> Duration {
-        let ticks = self.ticks();
-        let between = |tick: &Tick| tick.end.min(to).saturating_duration_since((tick.end - tick.late).max(from));
-        ticks.iter().map(between).max().unwrap_or_default()
-    }
-
-    fn ticks(&self) -> MutexGuard<'_, Vec<Tick>> {
-        self.0.lock().expect("no thread panics with it")
     }
 }
 
@@ -56,7 +45,6 @@ fn tick(ticks: &Weak<Mutex<Vec<Tick>>>) {
         let started = Instant::now();
         thread::sleep(TICK);
         let end = Instant::now();
-        let late = (end - started).saturating_sub(TICK);
-        ticks.lock().expect("no thread panics with it").push(Tick { end, late });
+        ticks.lock().expect("no thread panics with it").push((end, (end - started).saturating_sub(TICK)));
     }
 }

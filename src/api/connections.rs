@@ -50,7 +50,7 @@ pub(super) struct Connections {
 impl Connections {
     pub(super) fn new(listener: TcpListener, app: Arc<App>, tls: Option<Acceptor>) -> Self {
         let slots = Arc::new(Semaphore::new(app.settings.connections.max(1)));
-        let service = router(Arc::clone(&app));
+        let service = router(&app);
         Self { listener, app, tls, service, slots, open: JoinSet::new(), asking: watch::Sender::default() }
     }
 

@@ -113,7 +113,7 @@ mod tests {
 
     async fn ask(app: &Arc<App>) -> StatusCode {
         let request = Request::get("/readyz").body(Body::empty()).unwrap();
-        router(Arc::clone(app)).oneshot(request).await.unwrap().status()
+        router(app).oneshot(request).await.unwrap().status()
     }
 
     #[tokio::test]

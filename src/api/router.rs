@@ -15,10 +15,9 @@ use super::operations::{Parts, operations};
 use super::{docs, edge, headers, problem};
 
 /// The whole service.
-#[expect(clippy::needless_pass_by_value, reason = "whoever serves it owns it")]
-pub fn router(app: Arc<App>) -> Router {
+pub fn router(app: &App) -> Router {
     let demands = Demands::new(&app.settings.tls, Arc::clone(&app.running.metrics));
-    let router = guarded(&app)
+    let router = guarded(app)
         .route("/", get(docs::from_root))
         .route("/docs", get(docs::to_folder))
         .route("/docs/", get(docs::page))

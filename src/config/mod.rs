@@ -79,7 +79,7 @@ impl Config {
         match (&self.server.api_keys_file, self.insecure, self.listen.ip().is_loopback()) {
             (Some(_), ..) | (None, true, true) => None,
             (None, false, _) => Some("NO KEYS: every program of this machine may call; see --api-keys-file"),
-            (None, true, false) => Some("NO KEYS: whoever reaches the service may call; see --api-keys-file"),
+            (None, true, false) => Some("NO KEYS: everybody who reaches the service may call; see --api-keys-file"),
         }
     }
 }

@@ -59,7 +59,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "insecure",
         needed_by: NeededBy::Service,
         placeholder: "true|false",
-        help: "Serve without keys: whoever reaches the service may use it",
+        help: "Serve without keys: everybody who reaches the service may use it",
         value: Value::Switch { field: |config| &mut config.insecure },
     },
     Setting {

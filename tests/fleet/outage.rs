@@ -17,7 +17,7 @@ use crate::{LOOK_AGAIN, PATIENCE};
 
 /// How long the jobs run that the database misses the end of.
 const RUN: Duration = Duration::from_secs(4);
-/// Much longer than the database is away: whoever has a job then keeps it.
+/// Much longer than the database is away: a worker that has a job then keeps it.
 const LEASE: Duration = Duration::from_secs(20);
 
 /// A database that is away until its command hears no more, or the test has failed.

@@ -11,7 +11,7 @@ fn calling() -> NewJob {
     NewJob { callback_url: Some("https://example.org".to_owned()), ..job() }
 }
 
-/// What the call answers, and it wakes whoever watches the job.
+/// What the call answers, and it wakes those who watch the job.
 async fn waking<T, E: core::fmt::Debug>(watcher: &Watcher, call: impl Future<Output = Result<T, E>>) -> T {
     let changed = watcher.changed();
     let answer = call.await.unwrap();

@@ -50,7 +50,7 @@ impl Logged {
         let request = request.header(header::AUTHORIZATION, format!("Bearer {key}")).header("x-request-id", "mine");
         let request = request.header("traceparent", format!("00-{TRACE}-b7ad6b7169203331-01"));
         let request = request.body(Body::from(body.to_owned())).unwrap();
-        let response = router(Arc::clone(&self.app)).oneshot(request).await.unwrap();
+        let response = router(&self.app).oneshot(request).await.unwrap();
         assert_eq!(response.headers()["x-request-id"], "mine");
         let text = self.pages.take();
         assert!(text.lines().count() == 1 && !text.contains(key), "{text}");

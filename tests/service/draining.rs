@@ -23,7 +23,7 @@ fn draining_within(drain: Duration) -> ServerSettings {
     ServerSettings { threads: 1, drain, ..ServerSettings::default() }
 }
 
-/// Ask a host to stop, and wait until whoever asks anew is told that it does.
+/// Ask a host to stop, and wait until new requests are told that it does.
 async fn begin_to_drain(host: &Host) {
     host.ask_to_stop();
     let started = Instant::now();
@@ -86,7 +86,7 @@ async fn what_runs_is_finished() {
 }
 
 #[tokio::test]
-async fn a_service_drains_within_its_time_whoever_is_connected() {
+async fn a_service_drains_within_its_time_with_any_client_connected() {
     static RUNNING: AtomicUsize = AtomicUsize::new(0);
     let host = Host::with(draining_within(Duration::from_secs(2)), endless!(RUNNING)).await;
     let running = host.raw(&raw_plan(&scene(60_000)));

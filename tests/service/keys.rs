@@ -205,7 +205,7 @@ async fn whatever_is_no_key_is_refused_in_the_same_words() {
 }
 
 #[tokio::test]
-async fn whoever_is_refused_learns_it_before_and_after_a_large_body() {
+async fn a_refused_caller_learns_it_before_and_after_a_large_body() {
     let guarded = Guarded::start("unread", &[&key("a", "plan", OFTEN)]).await;
     // Nothing of the body has come.
     let head = "POST /v1/plans HTTP/1.1\r\nhost: x\r\nconnection: close\r\ncontent-type: application/json";
@@ -264,7 +264,7 @@ async fn an_idempotency_key_is_its_owners() {
 }
 
 #[tokio::test]
-async fn whoever_asks_too_often_is_told_when_to_come_again() {
+async fn a_caller_who_asks_too_often_is_told_when_to_come_again() {
     let [slow, quick] = [key("slow", "plan", "0.5"), key("quick", "plan", OFTEN)];
     let guarded = Guarded::start("rate", &[&slow, &quick]).await;
     // Where two requests are further apart than the rate asks for, the next two may not be.
@@ -330,7 +330,7 @@ async fn a_key_that_is_gone_ends_its_streams_and_waits() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn whoever_guesses_keys_gets_nowhere_and_holds_up_nobody() {
+async fn a_caller_who_guesses_keys_gets_nowhere_and_holds_up_nobody() {
     let good = key("good", "plan", OFTEN);
     let guarded = Guarded::start("guesses", &[&good]).await;
     let guesses = async {

@@ -3,7 +3,7 @@
 All is in one frame, metres, z up. A message in another frame is refused; nothing is transformed.
 
 The table is a collision object that is one box along the frame's axes. Its top counts. The other collision objects are
-fixed, the detections can be moved. What stands beside the table or under its top is left out: whoever moves the arm has
+fixed, the detections can be moved. What stands beside the table or under its top is left out: the program that moves the arm has
 to see to it. What leans over the table from beside it is refused, as are meshes and planes.
 
 An object covers the smallest circle about its middle that holds its shadow on the table: half the diagonal for an

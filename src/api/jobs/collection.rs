@@ -172,7 +172,7 @@ mod tests {
         let app = Arc::new(App::start(settings, Engine::default()).await.unwrap());
         let ask = async || {
             let request = Request::post("/v1/jobs").header(header::CONTENT_TYPE, "application/json");
-            router(Arc::clone(&app)).oneshot(request.body(Body::from("{}")).unwrap()).await.unwrap()
+            router(&app).oneshot(request.body(Body::from("{}")).unwrap()).await.unwrap()
         };
         let submitting = &app.parts.jobs.submitting;
         let others = submitting.available_permits().try_into().unwrap();

@@ -37,7 +37,7 @@ async fn a_request_within_a_request_is_never_answered() {
         // A folded field, and a field behind half a line's end.
         (format!("x: y\r\n {chunked}"), body, "400"),
         (format!("x: y\r{chunked}"), body, "400"),
-        // Chunks that end in another place for whoever reads them otherwise.
+        // Chunks that end in another place for a server that reads them otherwise.
         (chunked.to_owned(), "2\n{}\n0\n\n", "400"),
         (chunked.to_owned(), "2;a\n{}\r\n0\r\n\r\n", "400"),
         (chunked.to_owned(), "2;\rx\r\n{}\r\n0\r\n\r\n", "400"),

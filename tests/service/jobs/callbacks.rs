@@ -45,7 +45,7 @@ fn receive(listener: &TcpListener) -> (String, String) {
 }
 
 #[tokio::test]
-async fn whoever_asked_for_it_is_told_of_the_end_and_can_tell_who_tells() {
+async fn a_caller_who_asked_for_it_is_told_of_the_end_and_can_tell_who_tells() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/told?by=us", listener.local_addr().unwrap());
     let host = host("127.0.0.1").await;

@@ -43,7 +43,7 @@ async fn a_stream_tells_all_that_happens_to_a_job() {
         assert_eq!(data["incumbent"].is_null(), ["queued", "running"].contains(&name.as_str()), "{data}");
     }
     assert_eq!(told[told.len() - 1].2, host.get(&path(&job)).await.json());
-    // Whoever comes again goes on where it was.
+    // A client that comes again goes on where it was.
     let from = |id: &str| host.client.get(host.url(&events)).header("last-event-id", id).send();
     let rest = from("2").await.unwrap().text().await.unwrap();
     assert_eq!(messages(&rest), told[2..]);

@@ -50,7 +50,7 @@ async fn without_a_certificate_there_are_only_probes() {
 }
 
 #[tokio::test]
-async fn whoever_sends_a_large_body_without_a_certificate_learns_that_it_is_refused() {
+async fn a_client_that_sends_a_large_body_without_a_certificate_learns_that_it_is_refused() {
     let authority = Authority::new("large");
     let host = host_for(&authority, &[&authority]).await;
     let body = raw_plan(&json!(" ".repeat(3_000_000)));

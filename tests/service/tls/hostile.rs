@@ -1,4 +1,4 @@
-//! Clients that mean harm to whoever speaks TLS.
+//! Clients that mean harm to a service with TLS.
 
 use core::time::Duration;
 use std::io::Write;

@@ -54,7 +54,7 @@ async fn an_older_version_is_refused() {
 }
 
 #[tokio::test]
-async fn whoever_speaks_plain_http_is_told_that_this_is_tls() {
+async fn a_client_that_speaks_plain_http_is_told_that_this_is_tls() {
     let authority = Authority::new("plain");
     let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
     for request in [LIVEZ.to_owned(), raw_plan(&scene(1000))] {
@@ -66,7 +66,7 @@ async fn whoever_speaks_plain_http_is_told_that_this_is_tls() {
 }
 
 #[tokio::test]
-async fn whoever_sends_a_large_body_in_plain_http_is_told_so_too() {
+async fn a_client_that_sends_a_large_body_in_plain_http_is_told_so_too() {
     let authority = Authority::new("plain-large");
     let settings = ServerSettings { body_timeout: PATIENCE, ..ServerSettings::default() };
     let host = secure_host(&authority, settings, Engine::default()).await;

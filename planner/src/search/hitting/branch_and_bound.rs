@@ -21,7 +21,7 @@ const FIRST_ROUNDS: usize = 100;
 pub(in crate::search) struct Allowance {
     /// Choices left; counted down.
     pub(in crate::search) choices: usize,
-    /// Memory of the open questions without the last one, in words.
+    /// Memory of the open questions without the last one, in 64-bit words.
     pub(in crate::search) words: usize,
 }
 

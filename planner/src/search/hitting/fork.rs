@@ -86,7 +86,7 @@ impl Fork {
         matches!(self, Self::Parts(_))
     }
 
-    /// Memory of the instances, in words.
+    /// Memory of the instances, in 64-bit words.
     pub(super) fn words(&self) -> usize {
         match self {
             Self::Parts(parts) => parts.instances.iter().flatten().map(Instance::words).sum(),

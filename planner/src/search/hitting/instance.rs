@@ -106,7 +106,7 @@ impl Instance {
         self.labels[element]
     }
 
-    /// Its memory, in words.
+    /// Its memory, in 64-bit words.
     pub(super) fn words(&self) -> usize {
         self.members.words() + self.sets_of.words() + 2 * self.sets() + 2 * self.elements()
     }
