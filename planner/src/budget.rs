@@ -99,7 +99,7 @@ impl<'a> Ticker<'a> {
         Self { budget, beat: BEAT, left: 0 }
     }
 
-    /// The same, with its first look after `beat` steps, and as many between two looks.
+    /// A ticker that looks every `beat` steps, first after `beat`.
     pub fn every(beat: usize, budget: &'a Budget<'a>) -> Self {
         Self { budget, beat, left: beat }
     }

@@ -112,8 +112,8 @@ impl Planning {
         }
     }
 
-    /// A request that would be refused anyway is refused before its body is read, which costs several times a glance: under overload
-    /// most are, and their reading would take the cores from those that are not. The glance, where there was one.
+    /// When no thread is idle, refuse by the glance alone, before the costlier reading: under overload most requests are
+    /// refused. Returns the glance if one was taken.
     fn refuse_unread(&self, owner: &str, arrival: Instant, body: &[u8]) -> Result<Option<Glance>, Problem> {
         if self.pool.idle() > 0 {
             return Ok(None);

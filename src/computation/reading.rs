@@ -8,9 +8,8 @@ use super::engine::panicked;
 use super::problem::internal;
 use crate::wire::{Glance, Problem, RequestLimits};
 
-/// Bodies up to this many bytes, some 250 objects, are read where they arrive: half a millisecond, faulty ones. Larger ones are read by
-/// the planning thread that answers them, so that the time limit covers the reading and no timer waits for it; until then a
-/// glance must do, a millisecond for a megabyte.
+/// Bodies up to this many bytes (about 250 objects) are read on the connection's thread. Larger ones are read on the pool,
+/// within the time limit; until then only the glance is known.
 pub(super) const SMALL_BODY: usize = 16 * 1024;
 
 /// A body, read now or later.

@@ -42,7 +42,7 @@ impl Job {
 
     /// The job without its end.
     fn unfinished(self) -> Self {
-        // Like an ended job, it is kept as long after its beginning as after its end.
+        // Before its end a job expires as long after `created_at` as it is kept after its end.
         let kept = |end| self.created_at.after(self.expires_at.since(end));
         let expires_at = self.finished_at.map_or(self.expires_at, kept);
         Self { finished_at: None, expires_at, result: None, problem: None, version: None, ..self }

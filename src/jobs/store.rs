@@ -227,7 +227,7 @@ pub trait Store: Send + Sync + 'static {
     /// [`StoreError`].
     async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError>;
 
-    /// Handle expiry: leases, jobs and callbacks.
+    /// Handle expiry: leases and jobs.
     ///
     /// # Errors
     /// [`StoreError`].

@@ -1,4 +1,4 @@
-//! Pauses between retries of store calls, and the periodic sweep for expired leases, jobs and callbacks.
+//! Pauses between retries of store calls, and the periodic sweep for expired leases and jobs.
 
 use core::time::Duration;
 use std::sync::Arc;

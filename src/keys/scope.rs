@@ -6,7 +6,7 @@ use core::str::FromStr;
 /// A scope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// Plan now, check plans, survey.
+    /// Plan now, check plans, survey, knowledge.
     Plan,
     /// All calls about jobs.
     Jobs,

@@ -63,7 +63,7 @@ fn places(scene: &Scene, number: usize, step: &Relocation, again: bool, view: &V
     named(group, object.id(), &new, paint::MOVED, view)
 }
 
-/// The arrow from edge to edge, and the step's number at the new place.
+/// The arrow, and the step's number at both ends.
 fn route(scene: &Scene, number: usize, step: &Relocation, view: &View) -> Group {
     let disc = scene.object(step.object).disc();
     let radius = view.length(disc.radius);

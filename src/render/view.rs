@@ -63,7 +63,7 @@ impl View {
         Point2::new(self.origin.0 + x, self.origin.1 + y)
     }
 
-    /// The table's rectangle: x, y, width, height, px, with space for the strokes.
+    /// The drawn area: x, y, width, height, px, with space for the strokes.
     pub(super) fn frame(&self) -> (f64, f64, f64, f64) {
         let ((x, y), (width, height)) = (self.origin, self.extent);
         (x - 3.0, y - 3.0, width + 6.0, height + 6.0)

@@ -181,7 +181,7 @@ impl<'a> Node<'a> {
         let mut items = Vec::new();
         for (position, value) in values.iter().enumerate() {
             if faults.items.len() >= MAX_FAULTS {
-                // Nobody is told of more, and nothing is made of the rest.
+                // The answer lists no more faults, so the rest is not read.
                 return None;
             }
             let path = self.path.item(position);

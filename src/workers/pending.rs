@@ -162,7 +162,7 @@ impl<T> Pending<T> {
             Some(outcome) => outcome,
             // Its thread has died.
             None if self.ticket.started() => Outcome::Panicked,
-            // It was dropped from the full queue for a newcomer.
+            // Its time was over or it was recalled, so it was dropped from the queue.
             None => Outcome::TimedOut,
         }
     }

@@ -24,7 +24,7 @@ pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restrictio
     least_within(&Memory::default(), base, target, restriction, budget, SILENT)
 }
 
-/// [`least`] with other limits of memory, and with somebody who is told how far it has come.
+/// [`least`] with other limits of memory, and telling of each incumbent.
 pub fn least_within(
     memory: &Memory,
     base: &KnowledgeBase,

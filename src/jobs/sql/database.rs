@@ -11,9 +11,10 @@ use super::file;
 use super::herald::Herald;
 use crate::jobs::JobSettings;
 
-/// Timeout of one store call, or half a lease if that is less: a worker must notice in time that its store is away.
-/// Some seconds are normal for a busy database.
+/// The timeout of one store call is half a lease, so that a worker notices in time that its store is away, but no more than
+/// this ...
 const PATIENCE: Duration = Duration::from_secs(8);
+/// ... and no less than this, even if a lease is shorter: some seconds are normal for a busy database.
 const LEAST_PATIENCE: Duration = Duration::from_secs(3);
 
 /// An open database with its tables.

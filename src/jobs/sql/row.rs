@@ -102,7 +102,7 @@ fn job(row: &AnyRow) -> Result<Job, Error> {
 }
 
 fn raw_json(row: &AnyRow, column: &str) -> Result<Option<RawJson>, Error> {
-    // We write JSON and nothing else. Were a row mended by hand to something else, its list would still be served.
+    // A row edited by hand to invalid JSON reads as absent, so that lists are still served.
     Ok(row.try_get::<Option<&str>, _>(column)?.and_then(|text| text.parse().ok()))
 }
 

@@ -64,9 +64,9 @@ impl<'s> Checker<'s> {
         Self { scene, names: Names::new(scene), start, blocked, free: None }
     }
 
-    /// Check a stated answer. The cost is near-linear in the steps and in what the proofs name, and a byte for
-    /// each object where locks or needed objects are stated; the proofs look at the
-    /// budget about every 100 µs and are reported as unconfirmed where it ends.
+    /// Check a stated answer. The time is near-linear in the steps and in what the proofs name. Locks and needed objects take
+    /// a byte of memory for each object of the scene. The proofs look at the budget about every 100 µs and are reported as
+    /// unconfirmed where it ends.
     pub fn check(&mut self, claim: &Claim, budget: &Budget<'_>) -> Report {
         self.check_for(self.scene, claim, budget)
     }
