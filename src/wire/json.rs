@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
-
 /// A value. Its pieces are slices of the text.
 ///
 /// The JSON library's own value is not for strangers' texts: it takes objects with certain field names for numbers, and for
@@ -19,12 +17,22 @@ pub(super) enum Json<'t> {
     Object(Box<Object<'t>>),
 }
 
+impl<'t> Json<'t> {
+    /// The number that this text is. `None` if JSON writes none like it.
+    pub(super) fn number(text: &'t [u8]) -> Option<Self> {
+        if !past_number(text)?.is_empty() {
+            return None;
+        }
+        core::str::from_utf8(text).ok().map(Self::Number)
+    }
+}
+
 /// The fields of an object in the order of the text. Of two with one name the latter counts, at the place of the former.
 #[derive(Debug, Default)]
 pub(super) struct Object<'t> {
     pub(super) fields: Vec<(Cow<'t, str>, Json<'t>)>,
     /// The whole object.
-    pub(super) text: &'t str,
+    pub(super) text: &'t [u8],
 }
 
 impl<'t> Object<'t> {
@@ -33,56 +41,23 @@ impl<'t> Object<'t> {
     }
 }
 
-/// Any JSON, of which nothing is kept: says whether a text is JSON, and where it is not.
-pub(super) struct Sound;
-
-impl<'de> Deserialize<'de> for Sound {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Anything)
+/// What follows the number that a text begins with, as JSON writes numbers. `None` if it begins with none.
+fn past_number(text: &[u8]) -> Option<&[u8]> {
+    let whole = text.strip_prefix(b"-").unwrap_or(text);
+    // No digit follows a first 0.
+    let mut rest = whole.strip_prefix(b"0").or_else(|| past_digits(whole))?;
+    if let Some(fraction) = rest.strip_prefix(b".") {
+        rest = past_digits(fraction)?;
     }
+    if let [b'e' | b'E', exponent @ ..] = rest {
+        let unsigned = if let [b'+' | b'-', digits @ ..] = exponent { digits } else { exponent };
+        rest = past_digits(unsigned)?;
+    }
+    Some(rest)
 }
 
-struct Anything;
-
-impl<'de> Visitor<'de> for Anything {
-    type Value = Sound;
-
-    fn expecting(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("JSON")
-    }
-
-    fn visit_unit<E>(self) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_bool<E>(self, _: bool) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_i64<E>(self, _: i64) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_u64<E>(self, _: u64) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_f64<E>(self, _: f64) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_str<E>(self, _: &str) -> Result<Sound, E> {
-        Ok(Sound)
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Sound, A::Error> {
-        while items.next_element::<Sound>()?.is_some() {}
-        Ok(Sound)
-    }
-
-    /// The library hands numbers over like this too.
-    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<Sound, A::Error> {
-        while fields.next_entry::<Sound, Sound>()?.is_some() {}
-        Ok(Sound)
-    }
+/// What follows the digits that a text begins with. `None` if it begins with none.
+fn past_digits(text: &[u8]) -> Option<&[u8]> {
+    let count = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    if count > 0 { text.get(count..) } else { None }
 }

@@ -2,24 +2,26 @@
 
 use core::fmt;
 
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+
 use super::code::ErrorCode;
 use super::path::MAX_FAULTS;
 use super::problem::{ErrorItem, Problem, ProblemKind};
-use super::walk::{NoNumber, Slip, walk};
+use super::walk::{NoNumber, Slip, Walk};
 
 /// The byte order mark that some editors add to UTF-8; not JSON.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The first bytes of gzip.
 const GZIP: &[u8] = b"\x1f\x8b";
 
-/// The problem of a body that the JSON library refused with this error.
-pub(super) fn malformed(body: &[u8], error: &serde_json::Error) -> Problem {
-    let faults = faults(body, error);
+/// The problem of a body that is not JSON, and what a walk has found in it.
+pub(super) fn malformed(body: &[u8], found: Walk<'_>) -> Problem {
+    let faults = faults(body, found);
     let detail = faults.first().map(|fault| fault.detail.clone()).unwrap_or_default();
     Problem::new(ProblemKind::MalformedJson, detail).with_errors(faults)
 }
 
-fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
+fn faults(body: &[u8], found: Walk<'_>) -> Vec<ErrorItem> {
     if body.trim_ascii().is_empty() {
         return vec![fault("", format_args!("the body is empty"))];
     }
@@ -33,7 +35,7 @@ fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
     if body.starts_with(GZIP) {
         return whole(format_args!("it is compressed by gzip; send it as it is"));
     }
-    let (found, mut places) = (walk(body), Places::of(body));
+    let mut places = Places::of(body);
     let mut faults: Vec<ErrorItem> =
         found.no_numbers.iter().map(|no_number| of_no_number(no_number, places.at(no_number.at))).collect();
     faults.extend(found.slip.map(|(slip, at)| no_json("", format_args!("{}", sentence(&slip, places.at(at))))));
@@ -42,9 +44,14 @@ fn faults(body: &[u8], error: &serde_json::Error) -> Vec<ErrorItem> {
         return faults;
     }
     match core::str::from_utf8(body).map_err(|wrong| wrong.valid_up_to()) {
-        Ok(_) => whole(format_args!("{error}")),
+        Ok(_) => whole(format_args!("{}", the_librarys_words(body))),
         Err(at) => whole(format_args!("the byte 0x{:02x} at {} is not UTF-8", body[at], places.at(at))),
     }
+}
+
+/// What the JSON library says about a body that is not JSON.
+fn the_librarys_words(body: &[u8]) -> String {
+    serde_json::from_slice::<Sound>(body).err().map(|error| error.to_string()).unwrap_or_default()
 }
 
 fn fault(pointer: &str, detail: fmt::Arguments<'_>) -> ErrorItem {
@@ -127,5 +134,60 @@ impl<'t> Places<'t> {
         }
         self.at = self.at.max(at);
         self.place
+    }
+}
+
+/// Any JSON, of which nothing is kept: the library reads as far as it can.
+#[derive(Debug)]
+pub(super) struct Sound;
+
+impl<'de> Deserialize<'de> for Sound {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Anything)
+    }
+}
+
+struct Anything;
+
+impl<'de> Visitor<'de> for Anything {
+    type Value = Sound;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("JSON")
+    }
+
+    fn visit_unit<E>(self) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_str<E>(self, _: &str) -> Result<Sound, E> {
+        Ok(Sound)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Sound, A::Error> {
+        while items.next_element::<Sound>()?.is_some() {}
+        Ok(Sound)
+    }
+
+    /// The library hands numbers over like this too.
+    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<Sound, A::Error> {
+        while fields.next_entry::<Sound, Sound>()?.is_some() {}
+        Ok(Sound)
     }
 }

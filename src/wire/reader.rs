@@ -3,11 +3,11 @@
 use core::fmt;
 
 use super::code::ErrorCode;
-use super::json::{Json, Object, Sound};
+use super::json::{Json, Object};
 use super::malformed::{Places, malformed};
 use super::path::{MAX_FAULTS, Path};
 use super::problem::{ErrorItem, Problem};
-use super::walk::{Repeated, Walk, walk};
+use super::walk::{Repeated, walk};
 
 /// The faults found so far.
 #[derive(Default)]
@@ -36,10 +36,10 @@ impl Faults {
 /// # Errors
 /// A problem that names what is no JSON.
 pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, Faults), Problem> {
-    let _: Sound = serde_json::from_slice(body).map_err(|error| malformed(body, &error))?;
-    let Walk { value, repeated, .. } = walk(body);
+    let mut found = walk(body);
+    let Some(value) = found.value.take() else { return Err(malformed(body, found)) };
     let mut places = Places::of(body);
-    let items = repeated.into_iter().map(|Repeated { name, at, pointer }| {
+    let items = found.repeated.into_iter().map(|Repeated { name, at, pointer }| {
         let detail = format!("'{name}' is there a second time, at {}", places.at(at));
         ErrorItem::new(ErrorCode::RepeatedField, pointer, detail)
     });
@@ -63,8 +63,8 @@ impl<'a> Node<'a> {
     }
 
     /// The text of an object; empty for anything else.
-    pub(super) fn source(&self) -> &'a str {
-        if let Json::Object(object) = self.value { object.text } else { "" }
+    pub(super) fn source(&self) -> &'a [u8] {
+        if let Json::Object(object) = self.value { object.text } else { &[] }
     }
 
     fn wrong_type<T>(&self, expected: &str, faults: &mut Faults) -> Option<T> {

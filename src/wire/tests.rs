@@ -6,6 +6,7 @@ mod noise;
 mod requests;
 mod slips;
 mod typed;
+mod walk;
 
 use serde_json::{Value, json};
 

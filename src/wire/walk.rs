@@ -1,12 +1,11 @@
-//! Walks the text of a body: makes a value of it, and finds fields that are there twice and, where it is no JSON, the usual
-//! slips, each with its place.
+//! Walks the text of a body: says whether it is JSON, makes a value of it, and finds fields that are there twice and, where it
+//! is no JSON, the usual slips, each with its place.
 //!
-//! The JSON library stops at the first slip, without its pointer, and lets the last of two equal names win. It says before
-//! whether the text is JSON: this walk looks at words and brackets, and is lax with numbers.
+//! The JSON library stops at the first slip, without its pointer, and lets the last of two equal names win. It still reads
+//! the strings.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 use super::json::{Json, Object};
 use super::path::{MAX_FAULTS, Path};
@@ -24,8 +23,8 @@ const NO_NUMBERS: [&str; 3] = ["nan", "inf", "infinity"];
 /// What a walk has found.
 #[derive(Debug)]
 pub(super) struct Walk<'t> {
-    /// The value, as far as the walk came.
-    pub(super) value: Json<'t>,
+    /// The value. `None` if the text is not JSON.
+    pub(super) value: Option<Json<'t>>,
     /// Values such as `NaN`, which JSON has no way to write.
     pub(super) no_numbers: Vec<NoNumber>,
     /// Fields whose name an earlier field of the same object has.
@@ -70,20 +69,24 @@ type Stop = Option<Slip>;
 
 /// Walk over a whole text.
 pub(super) fn walk(text: &[u8]) -> Walk<'_> {
-    let found = Walk { value: Json::Null, no_numbers: Vec::new(), repeated: Vec::new(), slip: None };
-    let mut walker = Walker { text, at: 0, found };
+    let found = Walk { value: None, no_numbers: Vec::new(), repeated: Vec::new(), slip: None };
+    let mut walker = Walker { text, at: 0, sound: true, found };
     let whole = walker.value(&Path::Root, 0).and_then(|value| {
-        walker.found.value = value;
         walker.space();
-        if walker.at == text.len() { Ok(()) } else { Err(walker.slip()) }
+        if walker.at == text.len() { Ok(value) } else { Err(walker.slip()) }
     });
-    walker.found.slip = whole.err().flatten().map(|slip| (slip, walker.at));
+    match whole {
+        Ok(value) => walker.found.value = Some(value).filter(|_| walker.sound),
+        Err(slip) => walker.found.slip = slip.map(|slip| (slip, walker.at)),
+    }
     walker.found
 }
 
 struct Walker<'t> {
     text: &'t [u8],
     at: usize,
+    /// Whether all that stands for a number so far is one.
+    sound: bool,
     found: Walk<'t>,
 }
 
@@ -112,24 +115,16 @@ impl<'t> Walker<'t> {
         }
     }
 
-    /// The text from here on to where the walk is. Empty where it is not UTF-8.
-    fn since(&self, start: usize) -> &'t str {
-        self.text.get(start..self.at).and_then(|piece| core::str::from_utf8(piece).ok()).unwrap_or_default()
-    }
-
     fn value(&mut self, path: &Path<'_>, depth: usize) -> Result<Json<'t>, Stop> {
         self.space();
-        let (start, sign) = (self.at, self.peek().is_some_and(|byte| b"+-".contains(&byte)));
+        let sign = self.peek().is_some_and(|byte| b"+-".contains(&byte));
         let next = self.text.get(self.at + usize::from(sign)).copied().unwrap_or_default();
         match self.peek() {
             Some(b'{' | b'[') if depth == MAX_DEPTH => Err(None),
             Some(b'{') => self.object(path, depth),
             Some(b'[') => self.array(path, depth),
             Some(b'"') => self.string().map(Json::String),
-            Some(byte) if byte.is_ascii_digit() || byte == b'-' && next.is_ascii_digit() => {
-                self.skip_while(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
-                Ok(Json::Number(self.since(start)))
-            }
+            Some(byte) if byte.is_ascii_digit() || byte == b'-' && next.is_ascii_digit() => Ok(self.number()),
             Some(_) if next.is_ascii_alphabetic() => self.word(path),
             _ => Err(self.slip()),
         }
@@ -146,7 +141,7 @@ impl<'t> Walker<'t> {
             no_number.id = no_number.id.take().or_else(|| id.map(|id| id.to_string()));
         }
         walked?;
-        object.text = self.since(start);
+        object.text = &self.text[start..self.at];
         Ok(Json::Object(Box::new(object)))
     }
 
@@ -177,24 +172,17 @@ impl<'t> Walker<'t> {
                 return Err(self.slip());
             }
             self.at += 1;
-            let field = path.field(&name);
-            let value = match places.entry(name.clone()) {
-                Entry::Occupied(entry) => {
-                    if self.found.repeated.len() < MAX_FAULTS {
-                        let shown = name.chars().take(MAX_SHOWN).collect();
-                        self.found.repeated.push(Repeated { name: shown, at, pointer: field.pointer() });
-                    }
-                    let place: usize = *entry.get();
-                    fields[place].1 = self.value(&field, depth + 1)?;
-                    comma = self.comma(b'}')?;
-                    continue;
-                }
-                Entry::Vacant(entry) => {
-                    entry.insert(fields.len());
-                    self.value(&field, depth + 1)?
-                }
-            };
-            fields.push((name, value));
+            let (field, count) = (path.field(&name), fields.len());
+            let place = *places.entry(name.clone()).or_insert(count);
+            if place < count && self.found.repeated.len() < MAX_FAULTS {
+                let shown = name.chars().take(MAX_SHOWN).collect();
+                self.found.repeated.push(Repeated { name: shown, at, pointer: field.pointer() });
+            }
+            let value = self.value(&field, depth + 1)?;
+            match fields.get_mut(place) {
+                Some((_, former)) => *former = value,
+                None => fields.push((name, value)),
+            }
             comma = self.comma(b'}')?;
         }
     }
@@ -237,6 +225,15 @@ impl<'t> Walker<'t> {
         Ok(())
     }
 
+    /// A number, or what looks like one: slips behind it are told too.
+    fn number(&mut self) -> Json<'t> {
+        let start = self.at;
+        self.skip_while(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
+        let number = Json::number(&self.text[start..self.at]);
+        self.sound &= number.is_some();
+        number.unwrap_or(Json::Null)
+    }
+
     fn string(&mut self) -> Result<Cow<'t, str>, Stop> {
         let (start, mut escaped, mut plain) = (self.at, false, true);
         self.at += 1;
@@ -277,6 +274,7 @@ impl<'t> Walker<'t> {
             self.at = at;
             return Err(Some(Slip::Word(word)));
         }
+        self.sound = false;
         if self.found.no_numbers.len() < MAX_FAULTS {
             self.found.no_numbers.push(NoNumber { word, at, pointer: path.pointer(), id: None });
         }

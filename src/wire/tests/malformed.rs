@@ -94,6 +94,14 @@ fn what_other_languages_allow_is_named() {
 }
 
 #[test]
+fn digits_that_are_no_number_hide_no_slip_behind_them() {
+    says("[1., NaN]", "NaN stands at line 1 column 6, in /1; JSON has only finite numbers");
+    says("{\"a\": 1e, // one\n}", "a comment stands at line 1 column 11; JSON has no comments");
+    says("[-1.e5, 0]", "invalid number at line 1 column 5");
+    says("[1e999, 0 1]", "expected `,` or `]` at line 1 column 11");
+}
+
+#[test]
 fn what_is_no_utf_8_is_named() {
     let wide = |bytes: fn(u16) -> [u8; 2], mark: bool| -> Vec<u8> {
         let mark = mark.then_some(0xfeff);

@@ -5,19 +5,16 @@ use proptest::sample::{select, subsequence};
 use serde_json::{Value, json};
 
 use super::{scene, with};
-use crate::wire::json::Json;
-use crate::wire::reader::{Faults, Node};
-use crate::wire::walk::walk;
 use crate::wire::{RequestLimits, claim, job_request, request, typed};
 
-const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
+pub(super) const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
  "keep_out": [{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]},
  "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05, "margin": 0, "yaw_tolerance": 0.01},
  "objects": [{"id": "a", "x": 0.3, "y": 0.2, "radius": 0.075}, {"id": "b", "x": 0.6, "y": 0.2, "radius": 0.075, "fixed": true}],
  "target": "a", "settings": {"objective": "short_moves", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
 
 /// What may stand in place of something else: unusual and sound, or faulty.
-const EDITS: [(&str, &str); 49] = [
+pub(super) const EDITS: [(&str, &str); 49] = [
     ("0.3", "-0.0"),
     ("0.3", "-0"),
     ("0.3", "0.30000000000000004441"),
@@ -84,46 +81,7 @@ fn compare(scene: &str) {
     agree(claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits), &body);
 }
 
-/// Any value, some with equal names in one object.
-fn anything() -> impl Strategy<Value = Value> {
-    let leaf = prop_oneof![
-        Just(Value::Null),
-        any::<bool>().prop_map(Value::from),
-        any::<f64>().prop_map(Value::from),
-        any::<i64>().prop_map(Value::from),
-        ".{0,6}".prop_map(Value::from),
-    ];
-    leaf.prop_recursive(4, 40, 6, |inner| {
-        prop_oneof![
-            proptest::collection::vec(inner.clone(), 0..6).prop_map(Value::from),
-            proptest::collection::vec(("[a-c\\\\\"ü]{0,2}", inner), 0..6)
-                .prop_map(|fields| fields.into_iter().collect()),
-        ]
-    })
-}
-
-fn as_the_library_has_it(value: &Json<'_>) -> Value {
-    match value {
-        Json::Null => Value::Null,
-        Json::Bool(value) => (*value).into(),
-        Json::Number(literal) => serde_json::from_str(literal).unwrap(),
-        Json::String(text) => text.as_ref().into(),
-        Json::Array(items) => items.iter().map(as_the_library_has_it).collect(),
-        Json::Object(object) => {
-            object.fields.iter().map(|(name, value)| (name.as_ref(), as_the_library_has_it(value))).collect()
-        }
-    }
-}
-
 proptest! {
-    #[test]
-    fn the_walk_reads_what_the_library_reads(value in anything(), pretty: bool) {
-        let text = if pretty { serde_json::to_string_pretty(&value) } else { serde_json::to_string(&value) }.unwrap();
-        let walked = walk(text.as_bytes());
-        prop_assert!(walked.slip.is_none() && walked.no_numbers.is_empty() && walked.repeated.is_empty());
-        prop_assert_eq!(as_the_library_has_it(&walked.value), value);
-    }
-
     #[test]
     fn what_the_straight_way_takes_the_walk_takes_too(edits in subsequence(&EDITS[..], 0..=3)) {
         let mut body = SOUND.to_owned();
@@ -140,13 +98,6 @@ proptest! {
         compare(&String::from_utf8(body).expect("ASCII"));
     }
 
-    #[test]
-    fn a_number_is_the_same_double_either_way(literal in "-?(0|[1-9][0-9]{0,24})(\\.[0-9]{1,25})?([eE][+-]?[0-9]{1,3})?") {
-        let straight = serde_json::from_str::<f64>(&literal).ok();
-        let walked = walk(literal.as_bytes());
-        let number = Node::root(&walked.value).number(&mut Faults::default());
-        assert_eq!(straight.map(f64::to_bits), number.map(f64::to_bits), "{literal}");
-    }
 }
 
 #[test]
