@@ -43,8 +43,8 @@ pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<JobRequest> {
 
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
     let (value, mut faults) = parse(body)?;
-    let read = job(Node::root(&value), limits, &mut faults);
-    faults.judge(read.map(|job| JobRequest { body: body.to_owned(), ..job }))
+    let read = job(Node::root(&value), body, limits, &mut faults);
+    faults.judge(read)
 }
 
 /// Read a batch of job requests.
@@ -66,7 +66,7 @@ fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<
             faults.add(ErrorCode::TooManyScenes, node.path(), detail);
             return None;
         }
-        let jobs = node.list(faults, |node, faults| Some(job(node, limits, faults)))?;
+        let jobs = node.list(faults, |node, faults| Some(job(node, node.source(), limits, faults)))?;
         if jobs.is_empty() {
             faults.add(ErrorCode::TooFewScenes, node.path(), format_args!("a batch has at least one scene"));
         }
@@ -74,14 +74,15 @@ fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<
     })
 }
 
-fn job(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<JobRequest> {
+/// A job of a body, or of a part of it.
+fn job(node: Node<'_>, body: &[u8], limits: &RequestLimits, faults: &mut Faults) -> Option<JobRequest> {
     let plan = request(node, &JOB, limits, faults);
     // Faults of the object itself have been noted already.
     let fields = node.fields(&JOB, &mut Faults::default())?;
     let callback_url =
         fields.optional("callback_url", None, faults, |node, faults| callback_url(node, faults).map(Some));
     let priority = fields.optional("priority", 0, faults, |node, faults| node.integer(PRIORITY_RANGE, faults));
-    Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: node.source().into() })
+    Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: body.to_owned() })
 }
 
 fn callback_url(node: Node<'_>, faults: &mut Faults) -> Option<String> {
