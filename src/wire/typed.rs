@@ -13,10 +13,11 @@ use super::limits::{MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE
 use super::plan_request::StatedRequest;
 use super::reader::{Node, parse};
 use super::settings::StatedSettings;
+use super::walk::MAX_DEPTH;
 use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
-/// How deep a plan may be nested within the body of a verification: the JSON library reads 127 levels in all.
-const MAX_PLAN_NESTING: usize = 126;
+/// How deep a plan may be nested: the body of a verification is one level more.
+const MAX_PLAN_NESTING: usize = MAX_DEPTH - 1;
 
 /// A planning request. `None` unless it is sound, its scene apart.
 pub(super) fn scene(body: &[u8], limits: &RequestLimits) -> Option<StatedRequest> {

@@ -12,7 +12,7 @@ use super::path::{MAX_FAULTS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
 /// The deepest nesting of values, as in the JSON library.
-const MAX_DEPTH: usize = 127;
+pub(super) const MAX_DEPTH: usize = 127;
 /// The longest excerpt of a body, characters.
 const MAX_SHOWN: usize = 40;
 /// The values that are words.
