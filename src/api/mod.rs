@@ -31,7 +31,7 @@ mod unread;
 
 pub use app::App;
 pub use cors::CorsOrigins;
-pub use document::{openapi, openapi_json};
+pub use document::openapi_json;
 pub use router::router;
 pub use server::{Server, run};
 pub use settings::ServerSettings;

@@ -8,8 +8,8 @@ use super::scope::Scopes;
 
 /// The longest name, bytes: room for a cell or a person, none for a document.
 const MAX_NAME: usize = 64;
-/// The owner of jobs submitted without a key.
-const RESERVED: &str = "anonymous";
+/// The name of all who come without a key. No key has it.
+pub const ANONYMOUS: &str = "anonymous";
 /// The prefix of all our keys, so that a leaked key can be recognised.
 pub(super) const PREFIX: &str = "sgl_";
 
@@ -74,8 +74,8 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     if !(1..=MAX_NAME).contains(&name.len()) || !name.bytes().all(|byte| byte.is_ascii_graphic()) {
         return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
     }
-    if name == RESERVED {
-        return Err(format!("the name {RESERVED} belongs to those who came without a key"));
+    if name == ANONYMOUS {
+        return Err(format!("the name {ANONYMOUS} belongs to those who came without a key"));
     }
     if name.starts_with(PREFIX) {
         return Err("this is a key, not a name".to_owned());
@@ -127,7 +127,7 @@ mod tests {
         for name in ["a", "cell-4/17", "o'neil\\\"", &"n".repeat(64)] {
             assert!(check_name(name).is_ok(), "{name}");
         }
-        for name in ["", "a b", "a\n", "Müller", "anonymous", "sgl_abc", &"n".repeat(65)] {
+        for name in ["", "a b", "a\n", "Müller", ANONYMOUS, "sgl_abc", &"n".repeat(65)] {
             assert!(check_name(name).is_err(), "{name}");
         }
     }

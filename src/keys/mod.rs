@@ -10,7 +10,7 @@ mod rate;
 mod read;
 mod scope;
 
-pub use entry::without_keys;
+pub use entry::{ANONYMOUS, without_keys};
 pub use fresh::{FreshKey, append};
 pub use in_force::{Found, Keys, KeysError};
 pub use rate::Rate;

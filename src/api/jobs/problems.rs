@@ -24,7 +24,7 @@ impl JobCalls {
     pub(super) fn unavailable(&self, error: &StoreError) -> Problem {
         self.running.metrics.refused(Refusal::StoreUnavailable);
         tracing::warn!(%error, "a request was not answered");
-        Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
+        unanswered()
     }
 
     /// The submission failed.
@@ -38,6 +38,11 @@ impl JobCalls {
             SubmitError::Store(error) => self.unavailable(&error),
         }
     }
+}
+
+/// The store did not answer.
+fn unanswered() -> Problem {
+    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
 }
 
 /// There is no such job.
@@ -61,9 +66,7 @@ pub(super) struct JobProblems;
 
 impl IntoResponses for JobProblems {
     fn responses() -> BTreeMap<String, RefOr<Response>> {
-        let unavailable =
-            Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again");
-        let unavailable = problem(&unavailable, "The store of jobs can't be reached, or too many clients wait.");
+        let unavailable = problem(&unanswered(), "The store of jobs can't be reached, or too many clients wait.");
         let invalid = problem(&Problem::invalid(Vec::new()), "A parameter is unknown or out of range.");
         BTreeMap::from([("503".to_owned(), unavailable.into()), ("422".to_owned(), invalid.into())])
     }
