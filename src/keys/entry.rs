@@ -1,17 +1,20 @@
-//! One entry of the keys file.
+//! One key: its entry in the keys file, and how a new one is made.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
-use super::rate::Rate;
-use super::scope::Scopes;
+use super::rights::{Rate, Scopes};
 
 /// The longest name, bytes: room for a cell or a person, none for a document.
 const MAX_NAME: usize = 64;
 /// The name of all who come without a key. No key has it.
 pub const ANONYMOUS: &str = "anonymous";
 /// The prefix of all our keys, so that a leaked key can be recognised.
-pub(super) const PREFIX: &str = "sgl_";
+const PREFIX: &str = "sgl_";
+/// As many random bytes as in the digest: 256 bits can't be guessed.
+const RANDOM_BYTES: usize = 32;
 
 /// The SHA-256 of a key's text. Never displayed. Compare presented keys only by [`ConstantTimeEq`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -63,6 +66,37 @@ impl KeyEntry {
         let Self { name, digest, scopes, rate } = self;
         let name = toml::Value::from(name.as_str());
         format!("[[key]]\nname = {name}\nsha256 = \"{}\"\nscopes = {scopes}\nrate = {rate}\n", digest.text())
+    }
+}
+
+/// A new key. Its text is stored nowhere else.
+pub struct FreshKey {
+    text: String,
+    entry: KeyEntry,
+}
+
+impl FreshKey {
+    /// A key from the system's random bytes.
+    ///
+    /// # Errors
+    /// If the name is invalid, or the system gives no random bytes.
+    pub fn new(name: &str, scopes: Scopes, rate: Rate) -> Result<Self, String> {
+        check_name(name)?;
+        let mut bytes = [0; RANDOM_BYTES];
+        getrandom::fill(&mut bytes).map_err(|error| error.to_string())?;
+        let text = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(bytes));
+        let digest = KeyDigest::of(text.as_bytes());
+        Ok(Self { text, entry: KeyEntry { name: name.to_owned(), digest, scopes, rate } })
+    }
+
+    /// The text that the caller sends.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The entry of the keys file, as TOML.
+    pub fn entry(&self) -> String {
+        self.entry.text()
     }
 }
 
