@@ -14,7 +14,7 @@ use utoipa_axum::router::OpenApiRouter;
 use super::access::{Need, NotAdmitted};
 use super::examples;
 use super::operations;
-use super::responses::problem;
+use super::problem::described;
 use crate::keys::Scope;
 use crate::wire::{Problem, ProblemKind};
 
@@ -85,7 +85,7 @@ fn describe_need(need: Need, item: &mut PathItem) {
         operation.security = Some(security.clone());
         for (refused, description) in problems {
             let example = refused.problem();
-            let mut response = problem(&example, description);
+            let mut response = described(&example, description);
             if example.kind() == ProblemKind::Unauthorized {
                 let text = ObjectBuilder::new().schema_type(Type::String).build();
                 let header = HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and why (RFC 6750)."));
