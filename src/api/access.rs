@@ -111,10 +111,12 @@ pub(super) async fn guard(
 }
 
 /// Why a caller is refused.
-enum NotAdmitted {
+pub(super) enum NotAdmitted {
     NoKey,
     WrongKey,
+    /// It is for none of these.
     Scope(&'static [Scope]),
+    /// Until it may be used again.
     Rate(Duration),
 }
 
@@ -153,7 +155,7 @@ impl NotAdmitted {
         }
     }
 
-    fn problem(&self) -> Problem {
+    pub(super) fn problem(&self) -> Problem {
         match self {
             Self::NoKey => {
                 Problem::new(ProblemKind::Unauthorized, "send the header Authorization: Bearer and your key")

@@ -21,8 +21,7 @@ use super::app::App;
 use super::patience::PatientStream;
 use super::refusal;
 use super::router::router;
-use super::socket::Socket;
-use super::transport::{self, OverTls, Transport};
+use super::transport::{self, OverTls, Socket, Transport};
 use super::unread::{self, Unread};
 use crate::tls::Acceptor;
 

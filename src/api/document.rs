@@ -1,5 +1,6 @@
 //! The interface document, made from the code.
 
+use core::time::Duration;
 use std::sync::LazyLock;
 
 use utoipa::OpenApi;
@@ -10,10 +11,10 @@ use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement
 use utoipa::openapi::{ObjectBuilder, PathItem, RefOr, Schema, Type};
 use utoipa_axum::router::OpenApiRouter;
 
-use super::access::Need;
+use super::access::{Need, NotAdmitted};
 use super::examples;
 use super::operations;
-use super::responses::problem;
+use super::problem::described;
 use crate::keys::Scope;
 use crate::wire::{Problem, ProblemKind};
 
@@ -45,7 +46,7 @@ fn blank() -> utoipa::openapi::OpenApi {
 }
 
 /// The interface document.
-pub fn openapi() -> utoipa::openapi::OpenApi {
+fn openapi() -> utoipa::openapi::OpenApi {
     let blank = OpenApiRouter::with_openapi(blank());
     let routed = operations::operations().into_iter().fold(blank, |router, (need, (schemas, mut paths, route))| {
         paths.paths.values_mut().for_each(|item| {
@@ -82,10 +83,10 @@ fn describe_need(need: Need, item: &mut PathItem) {
     let security = [&[SecurityRequirement::default()], &security[..]].concat();
     for operation in operations(item) {
         operation.security = Some(security.clone());
-        for &(kind, description, detail) in problems {
-            let example = Problem::new(kind, detail);
-            let mut response = problem(&example, description);
-            if kind == ProblemKind::Unauthorized {
+        for (refused, description) in problems {
+            let example = refused.problem();
+            let mut response = described(&example, description);
+            if example.kind() == ProblemKind::Unauthorized {
                 let text = ObjectBuilder::new().schema_type(Type::String).build();
                 let header = HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and why (RFC 6750)."));
                 response.headers.insert("WWW-Authenticate".to_owned(), header.build().into());
@@ -134,14 +135,10 @@ pub fn openapi_json() -> String {
 }
 
 /// The descriptions of key problems, those of any key first.
-const KEY_PROBLEMS: [(ProblemKind, &str, &str); 3] = [
-    (ProblemKind::Unauthorized, "No key, or one that does not hold.", "there is no such key, or no longer"),
-    (
-        ProblemKind::RateExceeded,
-        "The key was used more often than it may be.",
-        "the key was used more often than it may be",
-    ),
-    (ProblemKind::Forbidden, "The key is for something else.", "this needs a key for plan"),
+const KEY_PROBLEMS: [(NotAdmitted, &str); 3] = [
+    (NotAdmitted::WrongKey, "No key, or one that does not hold."),
+    (NotAdmitted::Rate(Duration::ZERO), "The key was used more often than it may be."),
+    (NotAdmitted::Scope(&[Scope::Plan]), "The key is for something else."),
 ];
 
 /// The same text, built once.

@@ -11,7 +11,7 @@ use axum::response::{IntoResponse, Response};
 use super::accept;
 use super::access::Caller;
 use super::body::Bodies;
-use super::responses::RequestProblems;
+use super::problem::RequestProblems;
 use crate::computation::calls::{Knowledge, Plan, Survey, Verification};
 use crate::computation::{Computation, Form, Planning};
 use crate::wire::{AnswerBody, KnowledgeBody, Problem, SceneBody, SurveyBody, VerificationBody, VerifyBody};

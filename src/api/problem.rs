@@ -1,11 +1,15 @@
-//! Problems as responses, with their headers and `Retry-After`.
+//! Problems as responses, with their headers and `Retry-After`, and as the interface document describes them.
 
 use core::any::Any;
 use core::time::Duration;
+use std::collections::BTreeMap;
 
 use axum::Json;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use utoipa::IntoResponses;
+use utoipa::openapi::header::HeaderBuilder;
+use utoipa::openapi::{self, ContentBuilder, ObjectBuilder, Ref, RefOr, ResponseBuilder, Type};
 
 use crate::computation::internal;
 use crate::wire::{Problem, ProblemKind};
@@ -55,7 +59,7 @@ impl IntoResponse for Problem {
 }
 
 /// True if the same request may succeed later.
-pub(super) fn comes_again(kind: ProblemKind) -> bool {
+fn comes_again(kind: ProblemKind) -> bool {
     use ProblemKind::{NotReady, Overloaded, RateExceeded, StoreUnavailable};
     matches!(kind, Overloaded | NotReady | StoreUnavailable | RateExceeded)
 }
@@ -85,6 +89,62 @@ pub(super) async fn not_found() -> Problem {
 /// Wrong method; the router adds `Allow`.
 pub(super) async fn method_not_allowed() -> Problem {
     Problem::new(ProblemKind::MethodNotAllowed, "see the header Allow")
+}
+
+/// The problems of every request with a body.
+pub(super) struct RequestProblems;
+
+/// Each problem's description and example detail. The schema's own example is the 422.
+const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
+    (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
+    (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
+    (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 5 s"),
+    (
+        ProblemKind::BodyTooLarge,
+        "The body is larger than the limit, 4,000,000 bytes by default.",
+        "a body has at most 4000000 bytes",
+    ),
+    (
+        ProblemKind::UnsupportedMediaType,
+        "The body is not declared to be JSON in UTF-8.",
+        "there is no Content-Type; send application/json",
+    ),
+    (ProblemKind::InvalidRequest, "The request is invalid: every fault with its JSON pointer.", ""),
+    (
+        ProblemKind::CheckFailed,
+        "A defect of the service; an answer that failed its own check is withheld.",
+        "the answer is withheld; the scene is in the log",
+    ),
+    (
+        ProblemKind::Overloaded,
+        "Every thread is busy, and the queue is full or no thread is likely to be free within the time limit; or the service shuts down.",
+        "every thread is busy and the queue is full",
+    ),
+];
+
+impl IntoResponses for RequestProblems {
+    fn responses() -> BTreeMap<String, RefOr<openapi::Response>> {
+        let one = |&(kind, description, detail): &(ProblemKind, &str, &str)| {
+            let example = Problem::new(kind, detail);
+            (example.status().to_string(), described(&example, description).into())
+        };
+        REQUEST_PROBLEMS.iter().map(one).collect()
+    }
+}
+
+/// A problem as the document describes it, with an example.
+pub(super) fn described(example: &Problem, description: &str) -> openapi::Response {
+    let mut content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
+    if example.kind() != ProblemKind::InvalidRequest {
+        content = content.example(serde_json::to_value(example).ok());
+    }
+    let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content.build());
+    if !comes_again(example.kind()) {
+        return response.build();
+    }
+    let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();
+    let retry_after = HeaderBuilder::new().schema(Some(seconds)).description(Some("When to come again, s.")).build();
+    response.header("Retry-After", retry_after).build()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::wire::{Problem, ProblemKind};
 
-use super::headers::OF_DATA;
+use super::browsers::OF_DATA;
 use super::problem::PROBLEM_JSON;
 
 /// The problem response that replaces these bytes, if they are a refusal without a body. All our own refusals have one.

@@ -12,7 +12,7 @@ use super::access::{Need, guard};
 use super::app::App;
 use super::certificate::{self, Demands};
 use super::operations::{Parts, operations};
-use super::{docs, edge, headers, problem};
+use super::{browsers, docs, edge, problem};
 
 /// The whole service.
 pub fn router(app: &App) -> Router {
@@ -31,7 +31,7 @@ pub fn router(app: &App) -> Router {
         Some(cors) => router.layer(cors),
         None => router,
     };
-    let router = router.layer(from_fn_with_state(demands, certificate::over_tls)).layer(from_fn(headers::add));
+    let router = router.layer(from_fn_with_state(demands, certificate::over_tls)).layer(from_fn(browsers::add_headers));
     let told = from_fn_with_state(Arc::clone(&app.running.metrics), edge::each_request);
     router.layer(told).with_state(app.parts.clone())
 }

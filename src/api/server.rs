@@ -16,7 +16,7 @@ use super::connections::Connections;
 use super::running::Running;
 use super::settings::ServerSettings;
 use crate::computation::{Engine, Planning};
-use crate::jobs::{self, CallbackDelivery};
+use crate::jobs::CallbackDelivery;
 use crate::tls::Certificates;
 
 /// The share of the drain time after which running computations are recalled. The rest is for their answers to be
@@ -50,7 +50,7 @@ impl Server {
             () = shutdown => return Ok(None),
         };
         let (store, metrics) = (Arc::clone(&app.running.store), Arc::clone(&app.running.metrics));
-        let callbacks = CallbackDelivery::new(store, &app.settings.jobs, jobs::message, metrics);
+        let callbacks = CallbackDelivery::new(store, &app.settings.jobs, metrics);
         Ok(Some(Self { app, certificates, callbacks: callbacks.map_err(io::Error::other)? }))
     }
 

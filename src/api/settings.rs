@@ -4,7 +4,7 @@ use core::time::Duration;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
-use super::cors::CorsOrigins;
+use super::browsers::CorsOrigins;
 use crate::jobs::JobSettings;
 use crate::tls::TlsSettings;
 use crate::wire::RequestLimits;

@@ -57,8 +57,8 @@ impl Job {
     }
 }
 
-/// The body of a callback.
-pub fn message(job: &Job) -> Vec<u8> {
+/// The body of a callback. It is the same for the same job and holds the job's id, since a receiver may get it twice.
+pub(super) fn message(job: &Job) -> Vec<u8> {
     // It holds only strings and numbers.
     serde_json::to_vec(&job.body()).unwrap_or_default()
 }

@@ -6,6 +6,7 @@ use core::str::FromStr;
 use uuid::Uuid;
 
 use super::timestamp::Timestamp;
+use crate::keys::ANONYMOUS;
 use crate::wire::RawJson;
 use singulate_planner::search::Incumbent;
 
@@ -50,7 +51,7 @@ pub struct Owner(String);
 impl Owner {
     /// The only owner if there are no keys.
     pub fn anonymous() -> Self {
-        Self("anonymous".to_owned())
+        Self(ANONYMOUS.to_owned())
     }
 
     /// By name.

@@ -17,7 +17,6 @@ mod timestamp;
 mod upkeep;
 mod work;
 
-pub use body::message;
 pub use callback::{
     CallbackAllow, CallbackDelivery, CallbackFault, CallbackSecret, CallbackUrl, client_builder, trusted_roots,
 };

@@ -27,6 +27,7 @@ use crate::workers::{Draining, Pool, Recall};
 
 /// The poll interval for queued jobs: hints of other servers may be lost.
 const LOOK_AGAIN: Duration = Duration::from_millis(500);
+
 /// The workers for jobs of one server.
 pub struct Runner {
     store: Arc<dyn Store>,
@@ -34,7 +35,6 @@ pub struct Runner {
     tools: Tools,
     lease: Duration,
     slots: Arc<Semaphore>,
-    metrics: Arc<Metrics>,
     running: Mutex<HashMap<JobId, Running>>,
 }
 
@@ -69,10 +69,9 @@ impl Runner {
             store,
             // A thread may need a moment to become idle after its job.
             pool: Pool::new(threads, threads)?,
-            tools: Tools { engine, limits, metrics: Arc::clone(&metrics) },
+            tools: Tools { engine, limits, metrics },
             lease: settings.lease,
             slots: Arc::new(Semaphore::new(threads)),
-            metrics,
             running: Mutex::default(),
         })
     }
@@ -80,7 +79,7 @@ impl Runner {
     /// Claims jobs until `draining`; lets those that run end, and hands back those that still run at `over`.
     pub async fn run(self: Arc<Self>, draining: Draining, over: CancellationToken) {
         let tasks = TaskTracker::new();
-        tasks.spawn(sweep(Arc::clone(&self.store), Arc::clone(&self.metrics), self.lease, draining.clone()));
+        tasks.spawn(sweep(Arc::clone(&self.store), Arc::clone(&self.tools.metrics), self.lease, draining.clone()));
         let mut pause = Pause::default();
         while let Some(slot) = draining.unless_begun(self.slot()).await {
             let hint = self.store.hints().work.notified();
@@ -135,8 +134,8 @@ impl Runner {
 
     async fn attempt(self: Arc<Self>, mut claimed: Claimed, slot: OwnedSemaphorePermit, over: CancellationToken) {
         let claim = claimed.claim;
-        self.metrics.attempt(claimed.attempt);
-        self.metrics.waited(Queue::Job, Timestamp::now().since(claimed.created_at));
+        self.tools.metrics.attempt(claimed.attempt);
+        self.tools.metrics.waited(Queue::Job, Timestamp::now().since(claimed.created_at));
         let (watcher, mut incumbent) = watch::channel(None);
         let held = Held::new(Arc::clone(&self.store), claim, self.lease);
         let Ok(work) = Work::begin(mem::take(&mut claimed.body), &self.pool, &self.tools, watcher) else {
@@ -164,7 +163,7 @@ impl Runner {
                     End::Failed(_) => Ended::Failed,
                 };
                 lines.end(state, &concluded);
-                self.metrics.job_ended(state);
+                self.tools.metrics.job_ended(state);
             }
         }
         drop(slot);

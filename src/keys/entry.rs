@@ -1,17 +1,20 @@
-//! One entry of the keys file.
+//! One key: its entry in the keys file, and how a new one is made.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
-use super::rate::Rate;
-use super::scope::Scopes;
+use super::rights::{Rate, Scopes};
 
 /// The longest name, bytes: room for a cell or a person, none for a document.
 const MAX_NAME: usize = 64;
-/// The owner of jobs submitted without a key.
-const RESERVED: &str = "anonymous";
+/// The name of all who come without a key. No key has it.
+pub const ANONYMOUS: &str = "anonymous";
 /// The prefix of all our keys, so that a leaked key can be recognised.
-pub(super) const PREFIX: &str = "sgl_";
+const PREFIX: &str = "sgl_";
+/// As many random bytes as in the digest: 256 bits can't be guessed.
+const RANDOM_BYTES: usize = 32;
 
 /// The SHA-256 of a key's text. Never displayed. Compare presented keys only by [`ConstantTimeEq`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -66,6 +69,37 @@ impl KeyEntry {
     }
 }
 
+/// A new key. Its text is stored nowhere else.
+pub struct FreshKey {
+    text: String,
+    entry: KeyEntry,
+}
+
+impl FreshKey {
+    /// A key from the system's random bytes.
+    ///
+    /// # Errors
+    /// If the name is invalid, or the system gives no random bytes.
+    pub fn new(name: &str, scopes: Scopes, rate: Rate) -> Result<Self, String> {
+        check_name(name)?;
+        let mut bytes = [0; RANDOM_BYTES];
+        getrandom::fill(&mut bytes).map_err(|error| error.to_string())?;
+        let text = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(bytes));
+        let digest = KeyDigest::of(text.as_bytes());
+        Ok(Self { text, entry: KeyEntry { name: name.to_owned(), digest, scopes, rate } })
+    }
+
+    /// The text that the caller sends.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The entry of the keys file, as TOML.
+    pub fn entry(&self) -> String {
+        self.entry.text()
+    }
+}
+
 /// Checks a name, which appears in logs and owns jobs.
 ///
 /// # Errors
@@ -74,8 +108,8 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     if !(1..=MAX_NAME).contains(&name.len()) || !name.bytes().all(|byte| byte.is_ascii_graphic()) {
         return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
     }
-    if name == RESERVED {
-        return Err(format!("the name {RESERVED} belongs to those who came without a key"));
+    if name == ANONYMOUS {
+        return Err(format!("the name {ANONYMOUS} belongs to those who came without a key"));
     }
     if name.starts_with(PREFIX) {
         return Err("this is a key, not a name".to_owned());
@@ -127,7 +161,7 @@ mod tests {
         for name in ["a", "cell-4/17", "o'neil\\\"", &"n".repeat(64)] {
             assert!(check_name(name).is_ok(), "{name}");
         }
-        for name in ["", "a b", "a\n", "Müller", "anonymous", "sgl_abc", &"n".repeat(65)] {
+        for name in ["", "a b", "a\n", "Müller", ANONYMOUS, "sgl_abc", &"n".repeat(65)] {
             assert!(check_name(name).is_err(), "{name}");
         }
     }

@@ -3,7 +3,6 @@
 use core::fmt;
 use core::time::Duration;
 use std::collections::HashMap;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Instant;
@@ -14,28 +13,12 @@ use tokio::task::spawn_blocking;
 use tokio_util::sync::CancellationToken;
 
 use super::entry::{KeyDigest, KeyEntry};
-use super::rate::Spent;
-use super::read::read;
-use super::scope::Scope;
+use super::file::{KeysError, read};
+use super::rights::{Scope, Spent};
 use crate::watched_files::WatchedFiles;
 
 /// The longest presented key, bytes. Longer ones are not even hashed.
 const MAX_KEY: usize = 256;
-
-/// All faults of a keys file, one line each.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}", .0.join("\n"))]
-pub struct KeysError(pub Vec<String>);
-
-impl KeysError {
-    pub(super) fn file(path: &Path, error: &io::Error) -> Self {
-        Self(vec![format!("{}: {error}", path.display())])
-    }
-
-    pub(super) fn faults(path: &Path, faults: &[String]) -> Self {
-        Self(faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect())
-    }
-}
 
 /// The keys of a file, from its last valid version.
 pub struct Keys {

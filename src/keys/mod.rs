@@ -4,14 +4,11 @@
 //! one.
 
 mod entry;
-mod fresh;
+mod file;
 mod in_force;
-mod rate;
-mod read;
-mod scope;
+mod rights;
 
-pub use entry::without_keys;
-pub use fresh::{FreshKey, append};
-pub use in_force::{Found, Keys, KeysError};
-pub use rate::Rate;
-pub use scope::{Scope, Scopes};
+pub use entry::{ANONYMOUS, FreshKey, without_keys};
+pub use file::{KeysError, append};
+pub use in_force::{Found, Keys};
+pub use rights::{Rate, Scope, Scopes};

@@ -1,5 +1,6 @@
-//! The metric families: names, help, labels.
+//! The metric families: names, help, labels, and the bounds of histograms.
 
+use core::iter::once;
 use std::borrow::Cow;
 
 use prometheus_client::encoding::EncodeLabelSet;
@@ -8,8 +9,6 @@ use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
 use prometheus_client::registry::{Metric, Registry, Unit};
-
-use super::buckets;
 
 /// The media type of [`super::Metrics::text`].
 pub const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
@@ -48,15 +47,15 @@ pub(super) struct Families {
 impl Families {
     pub(super) fn new() -> Self {
         Self {
-            requests: Family::new_with_constructor(buckets::planning),
+            requests: Family::new_with_constructor(planning_times),
             refused: Family::default(),
-            queue_wait: Family::new_with_constructor(buckets::queue_wait),
-            phases: Family::new_with_constructor(buckets::planning),
-            planning: Family::new_with_constructor(buckets::planning),
+            queue_wait: Family::new_with_constructor(waiting_times),
+            phases: Family::new_with_constructor(planning_times),
+            planning: Family::new_with_constructor(planning_times),
             jobs: Family::default(),
             jobs_ended: Family::default(),
-            attempts: buckets::attempts(),
-            store: Family::new_with_constructor(buckets::store),
+            attempts: attempts(),
+            store: Family::new_with_constructor(store_times),
             callbacks: Family::default(),
             connections: Gauge::default(),
             streams: Gauge::default(),
@@ -90,4 +89,28 @@ impl Families {
 
 fn time<M: Metric + Clone>(registry: &mut Registry, name: &str, help: &str, family: &M) {
     registry.register_with_unit(name, help, Unit::Seconds, family.clone());
+}
+
+/// Bounds of histograms, s, in steps of about three: they show shifts and keep series short. From 0.1 ms, which the smallest
+/// scenes take, over HTTP too.
+const SUB_SECOND: [f64; 8] = [0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3];
+
+/// Up to the longest default time limit, 60 s.
+fn planning_times() -> Histogram {
+    Histogram::new(SUB_SECOND.into_iter().chain([1.0, 3.0, 10.0, 30.0, 60.0]))
+}
+
+/// A client waits at most its time limit, a job at most its retention: an hour by default.
+fn waiting_times() -> Histogram {
+    Histogram::new(SUB_SECOND.into_iter().chain([1.0, 3.0, 10.0, 30.0, 60.0, 300.0, 1000.0, 3600.0]))
+}
+
+/// Store calls of more than 5 s count as failed everywhere.
+fn store_times() -> Histogram {
+    Histogram::new(SUB_SECOND.into_iter().chain([1.0, 5.0]))
+}
+
+/// A job has at most three attempts.
+fn attempts() -> Histogram {
+    Histogram::new(once(1.0).chain([2.0, 3.0]))
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::{Outcome, Pool, Refused};
 use singulate_planner::budget::Budget;
 
-const ANYBODY: &str = "anonymous";
+const ANYBODY: &str = "anybody";
 
 const LONG: Duration = Duration::from_secs(600);
 

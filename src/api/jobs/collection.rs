@@ -11,13 +11,12 @@ use axum::http::Request;
 use axum::response::Response;
 use tokio::time::timeout;
 
-use super::accepted::accepted;
-use super::calls::JobCalls;
+use super::calls::{JobCalls, accepted};
 use super::problems::JobProblems;
 use super::query::Parameters;
 use super::submission::{Shape, check_callbacks, key, new_jobs};
 use crate::api::access::Caller;
-use crate::api::responses::RequestProblems;
+use crate::api::problem::RequestProblems;
 use crate::computation::{internal, note_scene};
 use crate::jobs::{Job, JobState, Owner, Page, Timestamp};
 use crate::wire::{

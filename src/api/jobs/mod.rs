@@ -1,6 +1,5 @@
 //! `/v1/jobs`: asynchronous planning.
 
-mod accepted;
 mod calls;
 mod collection;
 mod events;

@@ -11,8 +11,7 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use tokio::time::sleep;
 
-use super::accepted::accepted;
-use super::calls::JobCalls;
+use super::calls::{JobCalls, accepted};
 use super::problems::{OneJobProblems, job_id, no_such_job};
 use super::query::Parameters;
 use crate::api::access::Caller;

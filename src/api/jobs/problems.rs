@@ -8,7 +8,7 @@ use utoipa::IntoResponses;
 use utoipa::openapi::{RefOr, Response};
 
 use super::calls::JobCalls;
-use crate::api::responses::problem;
+use crate::api::problem::described;
 use crate::jobs::{JobId, StoreError, SubmitError};
 use crate::metrics::Refusal;
 use crate::wire::{Problem, ProblemKind};
@@ -24,7 +24,7 @@ impl JobCalls {
     pub(super) fn unavailable(&self, error: &StoreError) -> Problem {
         self.running.metrics.refused(Refusal::StoreUnavailable);
         tracing::warn!(%error, "a request was not answered");
-        Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
+        unanswered()
     }
 
     /// The submission failed.
@@ -38,6 +38,11 @@ impl JobCalls {
             SubmitError::Store(error) => self.unavailable(&error),
         }
     }
+}
+
+/// The store did not answer.
+fn unanswered() -> Problem {
+    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
 }
 
 /// There is no such job.
@@ -61,10 +66,8 @@ pub(super) struct JobProblems;
 
 impl IntoResponses for JobProblems {
     fn responses() -> BTreeMap<String, RefOr<Response>> {
-        let unavailable =
-            Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again");
-        let unavailable = problem(&unavailable, "The store of jobs can't be reached, or too many clients wait.");
-        let invalid = problem(&Problem::invalid(Vec::new()), "A parameter is unknown or out of range.");
+        let unavailable = described(&unanswered(), "The store of jobs can't be reached, or too many clients wait.");
+        let invalid = described(&Problem::invalid(Vec::new()), "A parameter is unknown or out of range.");
         BTreeMap::from([("503".to_owned(), unavailable.into()), ("422".to_owned(), invalid.into())])
     }
 }
@@ -75,7 +78,7 @@ pub(super) struct OneJobProblems;
 impl IntoResponses for OneJobProblems {
     fn responses() -> BTreeMap<String, RefOr<Response>> {
         let mut responses = JobProblems::responses();
-        responses.insert("404".to_owned(), problem(&no_such_job(), "There is no such job.").into());
+        responses.insert("404".to_owned(), described(&no_such_job(), "There is no such job.").into());
         responses
     }
 }

@@ -15,7 +15,8 @@ use super::client::{AllowedAddresses, Lookup, client_builder, innermost, system,
 use super::destination::{CallbackFault, CallbackUrl};
 use super::sign::{CallbackSecret, SIGNATURE_HEADER, TIMESTAMP_HEADER};
 use super::silent::SilentReceivers;
-use crate::jobs::job::{Job, JobId};
+use crate::jobs::body::message;
+use crate::jobs::job::JobId;
 use crate::jobs::settings::JobSettings;
 use crate::jobs::store::{Callback, Delivery, Store};
 use crate::jobs::timestamp::{Timestamp, WallClock};
@@ -59,16 +60,11 @@ impl Default for Pace {
     }
 }
 
-/// Makes the body of a callback. It is the same for the same job and holds the job's id, since a receiver may get it
-/// twice.
-pub(super) type Message = fn(&Job) -> Vec<u8>;
-
 /// Delivers the callbacks of ended jobs.
 pub struct CallbackDelivery {
     store: Arc<dyn Store>,
     allow: Arc<CallbackAllow>,
     secret: CallbackSecret,
-    message: Message,
     client: Client,
     silent: SilentReceivers,
     pace: Pace,
@@ -99,14 +95,13 @@ impl fmt::Display for TryFault {
 }
 
 impl CallbackDelivery {
-    /// Ready to run; `None` if callbacks are off. `message` makes the body of a callback from its job.
+    /// Ready to run; `None` if callbacks are off.
     ///
     /// # Errors
     /// If the HTTP client can't be built.
     pub fn new(
         store: Arc<dyn Store>,
         settings: &JobSettings,
-        message: Message,
         metrics: Arc<Metrics>,
     ) -> Result<Option<Self>, reqwest::Error> {
         let Some(secret) = settings.callback_secret.clone() else { return Ok(None) };
@@ -121,7 +116,7 @@ impl CallbackDelivery {
         let pace = Pace::default();
         let client = client(Arc::clone(&allow), system, roots, pace)?;
         let silent = SilentReceivers::new(pace.a_try);
-        Ok(Some(Self { store, allow, secret, message, client, silent, pace, metrics }))
+        Ok(Some(Self { store, allow, secret, client, silent, pace, metrics }))
     }
 
     #[cfg(test)]
@@ -134,8 +129,7 @@ impl CallbackDelivery {
         let allow: Arc<CallbackAllow> = Arc::new(allow.parse().unwrap());
         let client = client(Arc::clone(&allow), lookup, roots, pace).unwrap();
         let silent = SilentReceivers::new(pace.a_try);
-        let message: Message = |job| format!("{{\"id\":\"{}\"}}", job.id).into_bytes();
-        Self { store, allow, secret: secret.clone(), message, client, silent, pace, metrics: Arc::default() }
+        Self { store, allow, secret: secret.clone(), client, silent, pace, metrics: Arc::default() }
     }
 
     /// Delivers due callbacks until `shutdown` is done. Callbacks not delivered by then stay in the store.
@@ -226,7 +220,7 @@ impl CallbackDelivery {
         let url = self.allow.check(&callback.url).map_err(TryFault::NotAllowed)?;
         let receiver = url.receiver();
         self.silent.admit(&receiver, Timestamp::now()).map_err(TryFault::Silent)?;
-        let answer = self.post(&url, (self.message)(&callback.job)).await;
+        let answer = self.post(&url, message(&callback.job)).await;
         let answered = !answer.as_ref().is_err_and(reqwest::Error::is_timeout);
         self.silent.note(&receiver, answered, Timestamp::now());
         let status = answer.map_err(TryFault::NoAnswer)?;

@@ -6,9 +6,7 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Error, Row, Transaction};
 
 use super::call::Decision;
-use super::database::Database;
-use super::dialect::Dialect;
-use super::events;
+use super::database::{Database, Dialect};
 use super::herald::News;
 use super::row;
 use crate::jobs::{Claim, End, Event, EventKind, JobId, JobSettings, JobState, Owner, Timestamp};
@@ -65,7 +63,7 @@ impl Standing {
 
     /// The event line of a change that happens now.
     pub(super) fn line(&self, kind: EventKind, attempts: u32, now: Timestamp) -> String {
-        events::line(&self.event(kind, attempts, now))
+        row::line(&self.event(kind, attempts, now))
     }
 
     fn event(&self, kind: EventKind, attempts: u32, now: Timestamp) -> Event {
@@ -181,7 +179,7 @@ impl<'a> Change<'a> {
         sqlx::query(AssertSqlSafe(text))
             .bind(job.id.to_string())
             .bind(i64::from(attempts))
-            .bind(events::up_to_the_place(&job.event(EventKind::Queued, attempts, now)))
+            .bind(row::up_to_the_place(&job.event(EventKind::Queued, attempts, now)))
             .execute(self.connection())
             .await?;
         self.announce(News { queued: true, recall: true, ..News::of(job.id) });

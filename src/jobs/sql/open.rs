@@ -8,9 +8,7 @@ use sqlx::migrate::MigrateError;
 use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection, Error};
 use tokio_util::task::TaskTracker;
 
-use super::database::Database;
-use super::dialect::Dialect;
-use super::file;
+use super::database::{Database, Dialect, is_shared, use_write_ahead_log};
 use super::herald::Herald;
 use super::store::SqlStore;
 use crate::jobs::{JobSettings, Store};
@@ -97,8 +95,8 @@ async fn sqlite(settings: &JobSettings) -> Result<Database, Error> {
 /// The write connection of a file with a write-ahead log. It is replaced if another process has the file open.
 async fn writers_of_file(pool: AnyPoolOptions, options: AnyConnectOptions, path: &str) -> Result<AnyPool, Error> {
     let writers = pool.clone().connect_with(options.clone()).await?;
-    file::use_write_ahead_log(&writers).await?;
-    if !file::is_shared(&writers).await? {
+    use_write_ahead_log(&writers).await?;
+    if !is_shared(&writers).await? {
         return Ok(writers);
     }
     tracing::warn!(file = path, "another process has this file open; if it is a server, both serve the same jobs");

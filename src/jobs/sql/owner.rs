@@ -6,7 +6,6 @@ use std::collections::HashMap;
 use sqlx::{AssertSqlSafe, Error, Row};
 
 use super::change::{Change, Ending, Standing};
-use super::events;
 use super::herald::News;
 use super::row;
 use crate::jobs::{Cancellation, Event, EventKind, Job, JobId, JobState, NewJob, Owner, Removal, Timestamp};
@@ -118,7 +117,7 @@ async fn insert(change: &mut Change<'_>, job: &NewJob, turn: i64, now: Timestamp
         .bind(job.callback_url.as_deref().map(str::as_bytes))
         .bind(job.scene_sha256.as_str())
         .bind(job.scene_id.as_deref().map(str::as_bytes))
-        .bind(events::up_to_the_place(&event))
+        .bind(row::up_to_the_place(&event))
         .bind(job.body.as_slice())
         .fetch_one(change.connection())
         .await?;

@@ -1,10 +1,11 @@
-//! Reads jobs from rows.
+//! Jobs as rows: reads them, and writes their events as text, one line each, so that a new event is appended.
+
+use core::str::FromStr;
 
 use sqlx::any::AnyRow;
 use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
 
-use super::events;
-use crate::jobs::{Event, Job, JobId, JobState, Owner, Page, Timestamp};
+use crate::jobs::{Event, EventKind, Job, JobId, JobState, Owner, Page, Timestamp};
 use crate::wire::RawJson;
 use singulate_planner::search::Incumbent;
 
@@ -108,7 +109,7 @@ fn raw_json(row: &AnyRow, column: &str) -> Result<Option<RawJson>, Error> {
 
 pub(super) fn events(row: &AnyRow) -> Result<Vec<Event>, Error> {
     let lines: String = row.try_get("events")?;
-    events::read(&lines).ok_or_else(|| Error::Decode(format!("no events: {lines:?}").into()))
+    read_events(&lines).ok_or_else(|| Error::Decode(format!("no events: {lines:?}").into()))
 }
 
 pub(super) fn id(row: &AnyRow) -> Result<JobId, Error> {
@@ -140,4 +141,88 @@ pub(super) fn whole<T: TryFrom<i64>>(row: &AnyRow, column: &str) -> Result<T, Er
 
 fn narrow<T: TryFrom<i64>>(number: i64) -> Result<T, Error> {
     T::try_from(number).map_err(|_| Error::Decode(format!("{number} can't be").into()))
+}
+
+const KINDS: [EventKind; 4] = [EventKind::Queued, EventKind::Running, EventKind::Incumbent, EventKind::Finished];
+
+/// The line of an event: kind, milliseconds, attempts, cost and bound, the place in the queue.
+pub(super) fn line(event: &Event) -> String {
+    match event.queue_position {
+        Some(place) => format!("{}{place}\n", up_to_the_place(event)),
+        None => words(event) + "\n",
+    }
+}
+
+/// The line of an event without the queue position and the newline, which the database adds.
+pub(super) fn up_to_the_place(event: &Event) -> String {
+    words(event) + " @"
+}
+
+fn words(event: &Event) -> String {
+    let (kind, at, attempts) = (event.kind.as_str(), event.at.as_millis(), event.attempts);
+    match event.incumbent {
+        Some(Incumbent { cost, lower_bound }) => format!("{kind} {at} {attempts} {cost} {lower_bound}"),
+        None => format!("{kind} {at} {attempts}"),
+    }
+}
+
+/// The events of these lines; `None` if a line is invalid.
+pub(super) fn read_events(lines: &str) -> Option<Vec<Event>> {
+    lines.lines().map(event).collect()
+}
+
+fn event(line: &str) -> Option<Event> {
+    let (line, queue_position) = match line.split_once(" @") {
+        Some((line, place)) => (line, Some(number(place)?)),
+        None => (line, None),
+    };
+    let mut words = line.split(' ');
+    let kind = words.next()?;
+    let kind = KINDS.into_iter().find(|known| known.as_str() == kind)?;
+    let at = Timestamp::from_millis(number(words.next()?)?);
+    let attempts = number(words.next()?)?;
+    let incumbent = match words.next() {
+        Some(cost) => Some(Incumbent { cost: number(cost)?, lower_bound: number(words.next()?)? }),
+        None => None,
+    };
+    words.next().is_none().then_some(Event { kind, at, attempts, incumbent, queue_position })
+}
+
+fn number<T: FromStr>(word: &str) -> Option<T> {
+    word.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_what_is_read() {
+        let incumbents = [None, Some(Incumbent { cost: 7, lower_bound: 2 })];
+        let at = Timestamp::from_millis(-42);
+        let events: Vec<Event> = KINDS
+            .into_iter()
+            .flat_map(|kind| incumbents.map(|incumbent| (kind, incumbent)))
+            .flat_map(|(kind, incumbent)| [None, Some(12)].map(|place| (kind, incumbent, place)))
+            .map(|(kind, incumbent, queue_position)| Event { kind, at, attempts: 3, incumbent, queue_position })
+            .collect();
+        let lines: String = events.iter().map(line).collect();
+        assert_eq!(read_events(&lines).unwrap(), events);
+        assert_eq!(read_events(""), Some(Vec::new()));
+    }
+
+    #[test]
+    fn what_is_no_event_is_not_read() {
+        for lines in [
+            "waiting 1 0\n",
+            "queued 1\n",
+            "queued 1 0 3\n",
+            "queued 1 0 3 2 1\n",
+            "queued 1 -1\n",
+            "queued 1 0 @\n",
+            "\n",
+        ] {
+            assert_eq!(read_events(lines), None, "{lines:?}");
+        }
+    }
 }

@@ -13,7 +13,7 @@ use super::call::{self, Decision};
 use super::change::Change;
 use super::database::Database;
 use super::owner::Submitted;
-use super::{callbacks, owner, row, sweep, worker};
+use super::{leases, owner, row, sweep};
 use crate::jobs::{
     Callback, Cancellation, Claim, Claimed, Counts, Delivery, End, Hints, Job, JobId, NewJob, Owner, Page, Removal,
     Renewal, Store, StoreError, SubmitError, Swept, Timestamp, WallClock,
@@ -118,27 +118,27 @@ impl Store for SqlStore {
         let (own, database, time) = (clock.clone(), Arc::clone(&self.database), clock.clone());
         let undo = async move |unheard: Option<Claimed>| {
             let Some(Claimed { claim, .. }) = unheard else { return };
-            call::insist(database.settings.lease, || worker::give_back(&database, claim, time.now())).await;
+            call::insist(database.settings.lease, || leases::give_back(&database, claim, time.now())).await;
         };
-        change!(self, "claim", |change| worker::claim(change, &own), undo).await
+        change!(self, "claim", |change| leases::claim(change, &own), undo).await
     }
 
     async fn renew(&self, claim: Claim, clock: &WallClock) -> Result<Renewal, StoreError> {
         let clock = clock.clone();
-        change!(self, "renew", |change| worker::renew(change, claim, &clock)).await
+        change!(self, "renew", |change| leases::renew(change, claim, &clock)).await
     }
 
     async fn note(&self, claim: Claim, incumbent: Incumbent, now: Timestamp) -> Result<bool, StoreError> {
-        change!(self, "note", |change| worker::note(change, claim, incumbent, now)).await
+        change!(self, "note", |change| leases::note(change, claim, incumbent, now)).await
     }
 
     async fn finish(&self, claim: Claim, end: &End, now: Timestamp) -> Result<bool, StoreError> {
         let end = end.clone();
-        change!(self, "finish", |change| worker::finish(change, claim, &end, now)).await
+        change!(self, "finish", |change| leases::finish(change, claim, &end, now)).await
     }
 
     async fn hand_back(&self, claim: Claim, now: Timestamp) -> Result<bool, StoreError> {
-        change!(self, "hand_back", |change| worker::hand_back(change, claim, now)).await
+        change!(self, "hand_back", |change| leases::hand_back(change, claim, now)).await
     }
 
     async fn sweep(&self, now: Timestamp) -> Result<Swept, StoreError> {
@@ -157,13 +157,13 @@ impl Store for SqlStore {
         let (own, database, time) = (clock.clone(), Arc::clone(&self.database), clock.clone());
         let undo = async move |unheard: Option<Callback>| {
             let Some(Callback { job, attempt, .. }) = unheard else { return };
-            call::insist(lease, || callbacks::give_back(&database, job.id, attempt, time.now())).await;
+            call::insist(lease, || leases::give_back_callback(&database, job.id, attempt, time.now())).await;
         };
-        change!(self, "take_callback", |change| callbacks::take(change, lease, &own), undo).await
+        change!(self, "take_callback", |change| leases::take_callback(change, lease, &own), undo).await
     }
 
     async fn settle_callback(&self, id: JobId, attempt: u32, delivery: Delivery) -> Result<(), StoreError> {
-        change!(self, "settle_callback", |change| callbacks::settle(change, id, attempt, delivery)).await
+        change!(self, "settle_callback", |change| leases::settle_callback(change, id, attempt, delivery)).await
     }
 
     async fn counts(&self) -> Result<Counts, StoreError> {

@@ -4,6 +4,7 @@ use core::time::Duration;
 use std::sync::Arc;
 
 use rustls::RootCertStore;
+use serde_json::json;
 use tokio::net::TcpListener;
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
@@ -48,7 +49,11 @@ async fn a_message_arrives_once_as_json_and_signed() {
     let _running = start(&store, pace());
     assert_eq!(until_over(&store, id).await, [(1, Delivery::Over)]);
     let [message] = receiver.received().try_into().unwrap();
-    assert_eq!(message.body, format!("{{\"id\":\"{id}\"}}"));
+    let body: serde_json::Value = serde_json::from_str(&message.body).unwrap();
+    assert_eq!(
+        (&body["id"], &body["state"], &body["result"]),
+        (&json!(id.to_string()), &json!("succeeded"), &json!({}))
+    );
     assert!(message.head.starts_with("POST /done?of=cell-4 HTTP/1.1\r\n"), "{}", message.head);
     assert_eq!(message.header("content-type"), "application/json");
     assert!(message.header("user-agent").starts_with("singulate/"));
@@ -159,7 +164,7 @@ async fn nobody_is_told_without_a_list_and_a_secret() {
     let unsigned = JobSettings { callback_secret: None, ..on.clone() };
     for (settings, told) in [(on, true), (unlisted, false), (unsigned, false)] {
         let store = Arc::new(Callbacks::default());
-        let delivery = CallbackDelivery::new(store as _, &settings, |_| Vec::new(), Arc::default()).unwrap();
+        let delivery = CallbackDelivery::new(store as _, &settings, Arc::default()).unwrap();
         assert_eq!(delivery.is_some(), told, "{settings:?}");
     }
 }

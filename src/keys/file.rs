@@ -1,13 +1,17 @@
-//! Reads a keys file. Faults name their line and never repeat its text: it may be a misplaced key.
+//! The keys file: reads it, and appends a key. Faults name their line and never repeat its text: it may be a misplaced
+//! key.
 
 use std::collections::HashSet;
+use std::fs::OpenOptions;
+use std::io::{self, Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::Path;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::entry::{KeyDigest, KeyEntry, check_name};
-use super::rate::Rate;
-use super::scope::Scopes;
+use super::entry::{FreshKey, KeyDigest, KeyEntry, check_name};
+use super::rights::{Rate, Scopes};
 
 /// The most keys in a file. Each request is compared with all of them, some 60 µs for this many.
 const MAX_KEYS: usize = 1000;
@@ -16,6 +20,42 @@ const MAX_KEYS: usize = 1000;
 const MAX_FAULTS: usize = 20;
 
 const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
+
+/// All faults of a keys file, one line each.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct KeysError(pub Vec<String>);
+
+impl KeysError {
+    pub(super) fn file(path: &Path, error: &io::Error) -> Self {
+        Self(vec![format!("{}: {error}", path.display())])
+    }
+
+    pub(super) fn faults(path: &Path, faults: &[String]) -> Self {
+        Self(faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect())
+    }
+}
+
+/// Append the key's entry to the file. A missing file is created, readable only by its owner.
+///
+/// # Errors
+/// If the file can't be read or written, or would become invalid.
+pub fn append(key: &FreshKey, path: &Path) -> Result<(), KeysError> {
+    let failed = |error: io::Error| KeysError::file(path, &error);
+    let mut options = OpenOptions::new();
+    let mut file = options.read(true).append(true).create(true).mode(0o600).open(path).map_err(failed)?;
+    let mut before = Vec::new();
+    file.read_to_end(&mut before).map_err(failed)?;
+    let gap = match before.last() {
+        None => "",
+        Some(b'\n') => "\n",
+        Some(_) => "\n\n",
+    };
+    let added = format!("{gap}{}", key.entry());
+    read(&[&before, added.as_bytes()].concat()).map_err(|faults| KeysError::faults(path, &faults))?;
+    // In one write, since the service may read it meanwhile.
+    file.write_all(added.as_bytes()).and_then(|()| file.sync_all()).map_err(failed)
+}
 
 /// The keys in the text.
 ///

@@ -1,12 +1,52 @@
-//! CORS: the origins whose pages may call from a browser. None, unless the operator lists them.
+//! What browsers are told: headers for security and caching, and CORS, which lets pages of listed origins call. None is,
+//! unless the operator lists it.
 
 use core::fmt;
 use core::str::FromStr;
 use core::time::Duration;
 
-use axum::http::{HeaderName, HeaderValue, Method, header};
+use axum::body::Body;
+use axum::http::{HeaderName, HeaderValue, Method, Request, header};
+use axum::middleware::Next;
+use axum::response::Response;
 use tower_http::cors::{AllowOrigin, CorsLayer};
 use url::Url;
+
+/// Answers are data: they load nothing, run nothing, and are in no frame. A drawing has attributes, no styles.
+const DATA_POLICY: &str = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The page of the interface document has its own scripts and styles, adds styles while it runs, and calls this
+/// service. Its stylesheet holds pictures.
+const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
+    img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The headers of all data answers.
+pub(super) const OF_DATA: [(HeaderName, &str); 4] = [
+    (header::CONTENT_SECURITY_POLICY, DATA_POLICY),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::X_FRAME_OPTIONS, "DENY"),
+    (header::REFERRER_POLICY, "no-referrer"),
+];
+
+/// The middleware that adds the headers.
+pub(super) async fn add_headers(request: Request<Body>, next: Next) -> Response {
+    let path = request.uri().path();
+    let page = path.starts_with("/docs/");
+    // Answers that need a key must not be stored in shared caches.
+    let private = path.starts_with("/v1/") || ["/metrics", "/version"].contains(&path);
+    let mut response = next.run(request).await;
+    let headers = response.headers_mut();
+    for (name, value) in OF_DATA {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    if page {
+        headers.insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(PAGE_POLICY));
+    }
+    if private {
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    }
+    response
+}
 
 /// How long a browser may cache a preflight: a change of the list takes effect within the hour.
 const MAX_AGE: Duration = Duration::from_secs(3600);
