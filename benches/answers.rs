@@ -11,8 +11,10 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, criterion_group, criterion_main};
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_scene};
 use singulate_planner::budget::Budget;
+use singulate_planner::paper::plan_by;
 use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::SILENT;
 
 use paper::paper_50;
 
@@ -33,7 +35,7 @@ fn paper_scenes(criterion: &mut Criterion) {
     group.bench_function("plan alone", |bencher| {
         bencher.iter(|| {
             let scene = next.next().expect("a cycle");
-            black_box(plan(scene, &Settings::default(), &Budget::unlimited()).expect("checked"))
+            black_box(plan(scene, &Settings::default(), &Budget::unlimited(), SILENT).expect("checked"))
         });
     });
     group.finish();
@@ -62,8 +64,9 @@ fn spread(bodies: &[Vec<u8>]) {
 
 fn answer(body: &[u8]) -> Vec<u8> {
     let request = read_scene(body, &RequestLimits::default()).expect("sound");
-    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).expect("checked");
-    serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON")
+    let judged =
+        plan_by(&request.methods, &request.scene, &request.settings, &Budget::unlimited(), SILENT).expect("checked");
+    serde_json::to_vec(&AnswerBody::new(&request, &judged)).expect("JSON")
 }
 
 criterion_group!(benches, paper_scenes);

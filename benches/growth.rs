@@ -11,9 +11,9 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{complete, derivable, swept_finger_options};
+use singulate_planner::knowledge::{SweptFinger, complete, derivable};
 use singulate_planner::plan::survey;
-use singulate_planner::scene::{ObjectDraft, RectangleDraft, Scene, SceneDraft, TableDraft};
+use singulate_planner::scene::{ObjectDraft, RectangleDraft, Scene, SceneDraft, ShapeDraft, TableDraft};
 
 const SIZES: [usize; 8] = [50, 100, 200, 500, 1000, 2000, 5000, 10_000];
 const SCENES: u64 = 3;
@@ -28,7 +28,7 @@ const MAX_SURVEY: Duration = Duration::from_secs(1);
 fn time(scene: &Scene) -> Duration {
     let run = |_| {
         let started = Instant::now();
-        let base = complete(scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+        let base = complete(scene, &SweptFinger, &Budget::unlimited()).expect("within the limits");
         black_box(derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited"));
         started.elapsed()
     };
@@ -53,7 +53,7 @@ fn loose(side: usize) -> Scene {
         id: Some(format!("d{n}")),
         x: Some(x),
         y: Some(y),
-        radius: Some(0.04),
+        shape: ShapeDraft::disc(0.04),
         fixed: false,
     });
     let length = Some(0.3 * cases::count(side));

@@ -13,8 +13,10 @@ use std::process::{Command, ExitCode};
 use singulate::experiments::Recipe;
 use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{PlanError, plan};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::paper::plan_by;
+use singulate_planner::plan::PlanError;
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft};
+use singulate_planner::search::SILENT;
 
 const MAX_PEAK_KB: u64 = 100_000;
 /// A name, a scene, and settings in which it names one of the paper's methods.
@@ -65,12 +67,13 @@ fn answer(case: usize) {
     let body = json(&draft(), settings);
     let verdict = match read_scene(body.as_bytes(), &RequestLimits::default()) {
         Err(problem) => format!("refused: {}", problem.errors()[0].code),
-        Ok(request) => match plan(&request.scene, &request.settings, &Budget::unlimited()) {
+        Ok(request) => match plan_by(&request.methods, &request.scene, &request.settings, &Budget::unlimited(), SILENT)
+        {
             Err(PlanError::TooDense) => "refused: too_dense".to_owned(),
             Err(PlanError::Refused(report)) => panic!("{report:?}"),
-            Ok(answer) => {
-                let bytes = serde_json::to_vec(&AnswerBody::new(&request, &answer)).expect("JSON").len();
-                format!("{}, {bytes} bytes", answer.verdict.as_str())
+            Ok(judged) => {
+                let bytes = serde_json::to_vec(&AnswerBody::new(&request, &judged)).expect("JSON").len();
+                format!("{}, {bytes} bytes", judged.statement().verdict_name())
             }
         },
     };
@@ -84,7 +87,7 @@ fn json(draft: &SceneDraft, settings: &str) -> String {
     let number = |value: Option<f64>| value.expect("a full draft");
     let object = |object: &ObjectDraft| {
         let id = object.id.as_deref().expect("an id");
-        let (x, y, radius) = (number(object.x), number(object.y), number(object.radius));
+        let (x, y, radius) = (number(object.x), number(object.y), number(object.shape.radius));
         format!(r#"{{"id":"{id}","x":{x},"y":{y},"radius":{radius},"fixed":{}}}"#, object.fixed)
     };
     let objects: Vec<String> = draft.objects.iter().map(object).collect();
@@ -111,8 +114,13 @@ fn plate_among_crumbs() -> SceneDraft {
         (x * x + y * y).sqrt() > 0.0765
     };
     draft.objects.retain(beside);
-    let plate =
-        ObjectDraft { id: Some("plate".into()), x: Some(0.12), y: Some(0.12), radius: Some(0.075), fixed: false };
+    let plate = ObjectDraft {
+        id: Some("plate".into()),
+        x: Some(0.12),
+        y: Some(0.12),
+        shape: ShapeDraft::disc(0.075),
+        fixed: false,
+    };
     draft.objects.push(plate);
     draft.target = Some("plate".into());
     draft
@@ -124,7 +132,7 @@ fn plate_to_move() -> SceneDraft {
         id: Some(id),
         x: Some(x),
         y: Some(y),
-        radius: Some(radius),
+        shape: ShapeDraft::disc(radius),
         fixed,
     };
     let (cup, plate) = ((3.0, 3.0), (4.035, 3.0));
@@ -156,7 +164,7 @@ fn stair() -> SceneDraft {
         id: Some(id),
         x: Some(x),
         y: Some(y),
-        radius: Some(radius),
+        shape: ShapeDraft::disc(radius),
         fixed,
     };
     let step = |n: u32| {

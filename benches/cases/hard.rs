@@ -2,8 +2,8 @@
 
 use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{complete, derivable, swept_finger_options};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::knowledge::{SweptFinger, complete, derivable};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft};
 
 use super::cases::{count, scene};
 
@@ -46,7 +46,7 @@ pub(crate) fn too_much_for_lobs() -> SceneDraft {
 /// With the object as target that chaining reaches last.
 pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
     let scene = scene(draft.clone());
-    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+    let base = complete(&scene, &SweptFinger, &Budget::unlimited()).expect("within the limits");
     let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let last = closure.order.last().expect("not all are locked");
     SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }
@@ -55,7 +55,7 @@ pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
 /// With the first object as target that nothing can free.
 pub(crate) fn locked(draft: SceneDraft) -> SceneDraft {
     let scene = scene(draft.clone());
-    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+    let base = complete(&scene, &SweptFinger, &Budget::unlimited()).expect("within the limits");
     let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let stuck = scene.indices().find(|object| !closure.derives(*object)).expect("some are locked");
     SceneDraft { target: Some(scene.object(stuck).id().to_owned()), ..draft }
@@ -69,7 +69,7 @@ pub(crate) fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
         id: Some(format!("c{i}-{j}")),
         x: Some(place(i, 7 * i + 13 * j)),
         y: Some(place(j, 5 * i + 3 * j)),
-        radius: Some(0.001),
+        shape: ShapeDraft::disc(0.001),
         fixed: false,
     };
     let objects = (0..100).flat_map(|i| (0..100).map(move |j| (i, j))).map(crumb).collect();

@@ -5,8 +5,10 @@ use std::time::Duration;
 use serde_json::json;
 use singulate::wire::SceneBody;
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Settings, Verdict, plan};
+use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::Scene;
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::Verdict;
 
 use super::client::post;
 use super::paper::paper_50;
@@ -46,8 +48,8 @@ impl Mix {
 /// arithmetic.
 fn scenes() -> impl Iterator<Item = Scene> {
     let moves = |scene: &Scene| {
-        let answer = plan(scene, &Settings::default(), &Budget::unlimited()).expect("checked");
-        matches!(answer.verdict, Verdict::Relocate(_))
+        let answer = plan(scene, &Settings::default(), &Budget::unlimited(), SILENT).expect("checked");
+        answer.statement.verdict == Some(Verdict::Relocate)
     };
     (0..).map(paper_50).filter(moves).take(SCENES)
 }

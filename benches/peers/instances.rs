@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use singulate::experiments::{Arrangement, PAPERS_CASES, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, complete, derivable, relevant, swept_finger_options};
+use singulate_planner::cost::Cost;
+use singulate_planner::knowledge::{KnowledgeBase, SweptFinger, complete, derivable, relevant};
 use singulate_planner::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
 use singulate_planner::search::{Outcome, Restriction, least};
 
@@ -45,7 +46,7 @@ pub(crate) fn paper(number: usize) -> Instance {
     let (objects, table) = (case.objects, case.table);
     let seed = number / PAPERS_CASES.len();
     let scene = scene(&Recipe { objects, table, ..Recipe::default() }, seed);
-    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).expect("small");
+    let base = complete(&scene, &SweptFinger, &Budget::unlimited()).expect("small");
     let least = |object: &ObjectIndex| base.options(*object).map(<[_]>::len).min();
     let target = scene.indices().max_by_key(least).expect("not empty");
     instance(format!("N={objects} seed {seed}"), &scene, target)
@@ -92,11 +93,11 @@ fn pressed_recipe(objects: usize, gap: f64) -> Recipe {
 fn hardest(recipe: &Recipe, seed: usize) -> Instance {
     let scene = scene(recipe, seed);
     let budget = Budget::unlimited();
-    let base = complete(&scene, swept_finger_options, &budget).expect("within the limits");
+    let base = complete(&scene, &SweptFinger, &budget).expect("within the limits");
     let closure = derivable(&base, |_| false, &budget).expect("unlimited");
     let bound = |target: ObjectIndex| match least(&base, target, &Restriction::default(), &budget) {
         Outcome::Least(set) => set.bound,
-        Outcome::Underivable | Outcome::Interrupted(_) => 0,
+        Outcome::Underivable | Outcome::Interrupted(_) => Cost::ZERO,
     };
     let derivable = scene.indices().filter(|object| closure.derives(*object));
     let target = derivable.max_by_key(|object| (bound(*object), core::cmp::Reverse(*object)));
@@ -111,7 +112,7 @@ fn scene(recipe: &Recipe, seed: usize) -> Scene {
 
 /// With the part of the base that matters to the target: what the search itself is asked.
 fn instance(name: String, scene: &Scene, target: ObjectIndex) -> Instance {
-    let work = || relevant(scene, target, swept_finger_options, &Budget::unlimited()).expect("within the limits");
+    let work = || relevant(scene, target, &SweptFinger, &Budget::unlimited()).expect("within the limits");
     let (base, knowledge) = fastest(RUNS_ALONE, work);
     Instance { name, base, target, knowledge: Some(knowledge) }
 }
@@ -130,7 +131,7 @@ pub(crate) struct Crowd {
 pub(crate) fn crowd(scene: &Scene) -> Crowd {
     let budget = Budget::unlimited();
     let work = || {
-        let base = complete(scene, swept_finger_options, &budget).expect("within the limits");
+        let base = complete(scene, &SweptFinger, &budget).expect("within the limits");
         let closure = derivable(&base, |_| false, &budget).expect("unlimited");
         (base, closure)
     };

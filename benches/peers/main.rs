@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::KnowledgeBase;
 use singulate_planner::scene::ObjectIndex;
 use singulate_planner::search::{Outcome, Restriction, least};
@@ -115,7 +116,7 @@ fn answer(class: &str, instance: &Instance, limit: Duration) -> Value {
     };
     json!({
         "class": class, "name": name, "objects": base.len(), "target": target.get(), "options": options(base),
-        "ours": {"solved": solved, "optimum": optimum, "seconds": time.as_secs_f64()},
+        "ours": {"solved": solved, "optimum": optimum.map(Cost::get), "seconds": time.as_secs_f64()},
         "knowledge_seconds": knowledge.map(|time| time.as_secs_f64()),
     })
 }

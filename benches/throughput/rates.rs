@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use singulate::wire::{AnswerBody, PlanRequest, RequestLimits, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Answer, plan};
+use singulate_planner::paper::{Judged, plan_by};
+use singulate_planner::search::SILENT;
 
 use super::client::{Client, get, post};
 
@@ -30,7 +31,7 @@ pub(super) fn print(address: SocketAddr, bodies: &[Vec<u8>]) -> f64 {
     over_http(&probes);
     over_http(&plans);
     let rounds: Vec<(f64, f64)> = (0..ROUNDS).map(|_| (over_http(&probes), over_http(&plans))).collect();
-    let answered: Vec<(&[u8], PlanRequest, Answer)> = bodies.iter().map(|body| answered(body)).collect();
+    let answered: Vec<(&[u8], PlanRequest, Judged)> = bodies.iter().map(|body| answered(body)).collect();
     let alone = |threads| {
         rate(threads, || {
             let mut answered = answered.iter().cycle();
@@ -71,14 +72,14 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-fn answered(body: &[u8]) -> (&[u8], PlanRequest, Answer) {
+fn answered(body: &[u8]) -> (&[u8], PlanRequest, Judged) {
     let request = read_scene(body, &RequestLimits::default()).expect("sound");
-    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).expect("checked");
-    (body, request, answer)
+    let judged = plan_by(&request.methods, &request.scene, &request.settings, &Budget::unlimited(), SILENT);
+    (body, request, judged.expect("checked"))
 }
 
 /// All that is done with JSON for one answer.
-fn json((body, request, answer): &(&[u8], PlanRequest, Answer)) {
+fn json((body, request, judged): &(&[u8], PlanRequest, Judged)) {
     black_box(read_scene(body, &RequestLimits::default()).expect("sound"));
-    black_box(serde_json::to_vec(&AnswerBody::new(request, answer)).expect("JSON"));
+    black_box(serde_json::to_vec(&AnswerBody::new(request, judged)).expect("JSON"));
 }

@@ -104,6 +104,11 @@ impl<'a> Ticker<'a> {
         Self { budget, beat, left: beat }
     }
 
+    /// A ticker that looks first after `patience` steps, whatever the budget says until then.
+    pub fn patient(patience: usize, budget: &'a Budget<'a>) -> Self {
+        Self { budget, beat: BEAT, left: patience }
+    }
+
     /// Another ticker on the same budget.
     #[must_use]
     pub fn another(&self) -> Self {

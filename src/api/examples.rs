@@ -14,7 +14,7 @@ use crate::wire::{
     read_verify,
 };
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::known;
+use singulate_planner::knowledge::known;
 use singulate_planner::search::SILENT;
 
 /// Give every body of the document its example; `SceneBody` has one already.
@@ -74,18 +74,19 @@ impl Answers {
     fn to(scene: &Value) -> Self {
         let (engine, budget, limits) = (Engine::default(), Budget::unlimited(), RequestLimits::default());
         let request = read_scene(scene.to_string().as_bytes(), &limits).expect("the example is a scene");
-        let answer = (engine.plan)(&request.scene, &request.settings, &budget, SILENT).expect("the example is planned");
+        let judged = (engine.plan)(&request.methods, &request.scene, &request.settings, &budget, SILENT);
+        let judged = judged.expect("the example is planned");
         let statistics = StatisticsBody { knowledge_ms: 0.04, search_ms: 0.01, placement_ms: 0.2, check_ms: 0.02 };
-        let plan = value(&AnswerBody { statistics, ..AnswerBody::new(&request, &answer) });
+        let plan = value(&AnswerBody { statistics, ..AnswerBody::new(&request, &judged) });
         let survey = (engine.survey)(&request.scene, &budget).expect("the example is surveyed");
-        let known = known(&request.scene, request.settings.grasp_model, &budget).expect("the example is small");
+        let known = known(&request.scene, request.methods.grasp_model.model(), &budget).expect("the example is small");
         let verify = json!({"scene": scene, "plan": plan});
         let stated = read_verify(verify.to_string().as_bytes(), &limits).expect("what was answered can be stated");
-        let report = (engine.check)(&stated.request.scene, &stated.claim, &budget);
+        let report = (engine.check)(&stated.request.scene, &stated.statement, &budget);
         Self {
             plan,
             survey: value(&SurveyBody::new(&request.scene, &survey)),
-            knowledge: value(&KnowledgeBody::new(&request.scene, &known)),
+            knowledge: value(&KnowledgeBody::new(&request.scene, &known, false)),
             verify,
             verification: value(&VerificationBody::new(&report)),
         }

@@ -11,9 +11,10 @@ use super::{Failure, configure, input, output, text};
 use crate::render;
 use crate::wire::{AnswerBody, Problem, VerificationBody};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan;
+use singulate_planner::check::Report;
+use singulate_planner::paper::plan_by;
 use singulate_planner::plan::PlanError;
-use singulate_planner::plan::check::Report;
+use singulate_planner::search::SILENT;
 
 /// The arguments of `plan`.
 #[derive(Debug, Args)]
@@ -41,12 +42,12 @@ impl Plan {
         let request = input::scene(&self.scene, &config.server.limits)?;
         let clock = Stopwatch::start();
         let budget = Budget::new(&clock, request.time_limit);
-        let answer =
-            plan::plan(&request.scene, &request.settings, &budget).map_err(|error| failed(&self.scene, &error))?;
+        let judged = plan_by(&request.methods, &request.scene, &request.settings, &budget, SILENT)
+            .map_err(|error| failed(&self.scene, &error))?;
         match self.format {
-            Format::Json => output::print_json(&AnswerBody::new(&request, &answer)),
-            Format::Text => output::print(&text::answer(&request, &answer)),
-            Format::Svg => output::print(&render::svg(&request.scene, &answer)),
+            Format::Json => output::print_json(&AnswerBody::new(&request, &judged)),
+            Format::Text => output::print(&text::answer(&request, &judged)),
+            Format::Svg => output::print(&render::svg(&request.scene, &judged)),
         }
     }
 }

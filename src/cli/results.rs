@@ -5,7 +5,7 @@ use crate::experiments::{
     ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Repositioning,
     Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
 };
-use singulate_planner::plan::{GraspModel, SearchMethod};
+use singulate_planner::paper::{GraspModelName, SearchMethod};
 
 /// The figures that can't be reproduced exactly.
 pub(super) const NOT_THE_SAME: &str = "\
@@ -124,8 +124,8 @@ fn methods(columns: &[Table1Column]) -> impl Iterator<Item = (&Table1Column, &Mo
 /// The paper's figures for a method; it has the sector model only.
 fn printed<'c>(column: &'c Table1Column, model: &ModelFigures, method: &MethodFigures) -> Option<&'c Printed> {
     match (model.grasp_model, method.method) {
-        (GraspModel::Sector, SearchMethod::ForwardAstar) => Some(&column.case.base),
-        (GraspModel::Sector, SearchMethod::Lobs) => Some(&column.case.lobs),
+        (GraspModelName::Sector, SearchMethod::ForwardAstar) => Some(&column.case.base),
+        (GraspModelName::Sector, SearchMethod::Lobs) => Some(&column.case.lobs),
         _ => None,
     }
 }
@@ -139,10 +139,10 @@ fn name_of(method: SearchMethod) -> String {
     .to_owned()
 }
 
-fn model_of(model: GraspModel) -> String {
+fn model_of(model: GraspModelName) -> String {
     match model {
-        GraspModel::Sector => "sector",
-        GraspModel::SweptFinger => "swept finger",
+        GraspModelName::Sector => "sector",
+        GraspModelName::SweptFinger => "swept finger",
     }
     .to_owned()
 }

@@ -2,15 +2,14 @@
 
 use core::time::Duration;
 
-use nalgebra::Point2;
-
 use super::table::{Column, table};
 use crate::render::headline;
 use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
-use singulate_planner::plan::{
-    Answer, Deadlock, Grasp, LowerBound, Plan, Statistics, SurveyEntry, SurveyVerdict, Unplanned, Verdict,
-};
-use singulate_planner::scene::{ObjectIndex, Scene};
+use singulate_planner::cost::Cost;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
+use singulate_planner::scene::{Pose, Scene};
+use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 /// The most ids in one sentence.
 const MANY: usize = 40;
@@ -24,33 +23,38 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// The answer to a planning request.
-pub(super) fn answer(request: &PlanRequest, answer: &Answer) -> String {
+pub(super) fn answer(request: &PlanRequest, judged: &Judged) -> String {
     let scene = &request.scene;
     let name = |id: &String| format!(" in scene {}", plain(id));
     let place = request.scene_id.as_ref().map(name).unwrap_or_default();
     let target = plain(scene.object(scene.target()).id());
-    let mut paragraphs = vec![format!("{}\ntarget: {target}{place}\n", headline(answer))];
-    match &answer.verdict {
-        Verdict::Graspable(grasp) => paragraphs.push(format!("Grasp {target} at yaw {}.\n", yaw(*grasp))),
-        Verdict::Relocate(plan) => paragraphs.extend([steps(scene, plan), why_least(scene, plan)]),
-        Verdict::Deadlock(Some(deadlock)) => paragraphs.push(why_never(scene, deadlock)),
-        // Headline and warnings say everything.
-        Verdict::Deadlock(None) => {}
-        Verdict::NoSpace(known) => paragraphs.extend([so_far(scene, known), NO_PROOF.to_owned()]),
-        Verdict::TimedOut(known) => paragraphs.push(so_far(scene, known)),
-    }
+    let Judged { answer: Answer { statement, statistics }, .. } = judged;
+    let mut paragraphs = vec![format!("{}\ntarget: {target}{place}\n", headline(judged))];
+    paragraphs.extend(match statement.verdict {
+        Some(Verdict::Graspable) => vec![last_grasp("Grasp", &target, statement)],
+        Some(Verdict::Relocate) => vec![steps(&target, statement), why_least(statement)],
+        // Without a proof, headline and warnings say everything.
+        Some(Verdict::Deadlock) => statement.deadlock.iter().map(|deadlock| why_never(scene, deadlock)).collect(),
+        Some(Verdict::NoSpace) => vec![so_far(statement), NO_PROOF.to_owned()],
+        Some(Verdict::TimedOut) => vec![so_far(statement)],
+        None => Vec::new(),
+    });
     paragraphs.push(
-        warnings(request, answer)
+        warnings(request, judged)
             .iter()
             .map(|warning| format!("warning: {} ({})\n", plain(&warning.detail), plain(&warning.pointer)))
             .collect(),
     );
-    paragraphs.push(times(&answer.statistics));
+    paragraphs.push(times(statistics));
     paragraphs.retain(|paragraph| !paragraph.is_empty());
     paragraphs.join("\n")
 }
 
-fn steps(scene: &Scene, plan: &Plan) -> String {
+fn last_grasp(verb: &str, target: &str, statement: &Statement) -> String {
+    statement.target_grasp.map(|grasp| format!("{verb} {target} at yaw {}.\n", yaw(grasp))).unwrap_or_default()
+}
+
+fn steps(target: &str, statement: &Statement) -> String {
     let columns = [
         Column::right("#"),
         Column::left("object"),
@@ -61,70 +65,77 @@ fn steps(scene: &Scene, plan: &Plan) -> String {
         Column::right("release yaw"),
         Column::right("gap"),
     ];
-    let rows = plan.relocations.iter().enumerate().map(|(at, step)| {
-        let object = plain(scene.object(step.object).id());
-        let gap = format!("{:.1} mm", step.gap * 1e3);
-        let (from, to) = (point(step.from), point(step.to));
-        vec![(at + 1).to_string(), object, from, "→".to_owned(), to, yaw(step.grasp), yaw(step.release), gap]
+    let rows = statement.steps().iter().enumerate().map(|(at, step)| match step {
+        Step::PickPlace(PickPlace { object, from, to, grasp, release, gap }) => {
+            let gap = gap.map(|gap| format!("{:.1} mm", gap * 1e3)).unwrap_or_default();
+            let from = from.map(point).unwrap_or_default();
+            let (object, arrow) = (plain(object), "→".to_owned());
+            vec![(at + 1).to_string(), object, from, arrow, point(*to), yaw(*grasp), yaw(*release), gap]
+        }
     });
-    let target = plain(scene.object(scene.target()).id());
-    format!("{}\nThen grasp {target} at yaw {}.\n", table(&columns, rows), yaw(plan.target_grasp))
+    format!("{}\n{}", table(&columns, rows), last_grasp("Then grasp", target, statement))
 }
 
-fn point(at: Point2<f64>) -> String {
+fn point(Pose { at }: Pose) -> String {
     format!("{:.3}, {:.3}", at.x, at.y)
 }
 
 /// The yaw, and how far it may be off to either side.
-fn yaw(grasp: Grasp) -> String {
-    format!("{:.1}° ±{:.1}°", grasp.yaw.to_degrees(), grasp.slack.to_degrees())
+fn yaw(StatedGrasp { yaw, slack }: StatedGrasp) -> String {
+    let slack = slack.map(|slack| format!(" ±{:.1}°", slack.to_degrees())).unwrap_or_default();
+    format!("{:.1}°{slack}", yaw.to_degrees())
 }
 
-fn why_least(scene: &Scene, plan: &Plan) -> String {
-    let Some(known) = &plan.bound else { return "Whether fewer relocations suffice is not known.\n".to_owned() };
-    let (cost, least) = (plan.cost(), known.cost);
-    let bound = why_bound(scene, known);
-    if plan.optimal() {
+fn why_least(statement: &Statement) -> String {
+    let (Some(cost), Some(least)) = (statement.cost, statement.lower_bound) else {
+        return "Whether fewer relocations suffice is not known.\n".to_owned();
+    };
+    let bound = why_bound(statement);
+    if cost == least {
         return format!("{bound}So {cost} is the least.\n");
     }
-    let needed = if least == 0 { String::new() } else { format!("{bound}So {least} or more are needed; ") };
-    let whether = if least == 0 { "Whether" } else { "whether" };
+    let (needed, whether) = if least == Cost::ZERO {
+        (String::new(), "Whether")
+    } else {
+        (format!("{bound}So {least} or more are needed; "), "whether")
+    };
     format!("{needed}{whether} fewer than {cost} suffice is not known.\n")
 }
 
 /// The landmarks as sentences.
-fn why_bound(scene: &Scene, bound: &LowerBound) -> String {
-    let (single, several): (Vec<_>, Vec<_>) = bound.landmarks.iter().partition(|set| set.len() == 1);
-    let single: Vec<ObjectIndex> = single.into_iter().flatten().copied().collect();
-    let mut lines =
-        if single.is_empty() { String::new() } else { format!("Every plan moves: {}\n", ids(scene, &single)) };
+fn why_bound(statement: &Statement) -> String {
+    let landmarks = statement.landmarks.as_deref().unwrap_or_default();
+    let (single, several): (Vec<_>, Vec<_>) = landmarks.iter().partition(|set| set.len() == 1);
+    let single: Vec<String> = single.into_iter().flatten().cloned().collect();
+    let mut lines = if single.is_empty() { String::new() } else { format!("Every plan moves: {}\n", ids(&single)) };
     for set in &several {
-        lines += &format!("Every plan moves at least one of: {}\n", ids(scene, set));
+        lines += &format!("Every plan moves at least one of: {}\n", ids(set));
     }
     if several.len() + usize::from(!single.is_empty()) < 2 {
         return lines;
     }
-    let (count, satisfy) = (bound.cost, if bound.cost == 1 { "object satisfies" } else { "objects satisfy" });
+    let count = statement.lower_bound.unwrap_or_default();
+    let satisfy = if count == Cost::new(1) { "object satisfies" } else { "objects satisfy" };
     format!("{lines}No fewer than {count} {satisfy} all of these.\n")
 }
 
-fn ids(scene: &Scene, objects: &[ObjectIndex]) -> String {
-    objects.iter().map(|&object| plain(scene.object(object).id())).collect::<Vec<_>>().join(", ")
+fn ids(objects: &[String]) -> String {
+    objects.iter().map(|id| plain(id)).collect::<Vec<_>>().join(", ")
 }
 
-fn why_never(scene: &Scene, deadlock: &Deadlock) -> String {
-    let members = deadlock.core.iter().map(|&index| {
-        let object = scene.object(index);
-        let part = match (index == scene.target(), object.fixed()) {
+fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
+    let members = core.iter().map(|id| {
+        let found = scene.find(id);
+        let fixed = found.is_some_and(|found| scene.object(found).fixed());
+        let part = match (found == Some(scene.target()), fixed) {
             (true, _) => "the target",
             (false, true) => "fixed",
             (false, false) => "",
         };
-        vec![plain(object.id()), part.to_owned()]
+        vec![plain(id), part.to_owned()]
     });
     let members = table(&[Column::left("object"), Column::left("")], members);
-    let others: Vec<ObjectIndex> =
-        deadlock.blocked.iter().copied().filter(|object| !deadlock.core.contains(object)).collect();
+    let others: Vec<String> = blocked.iter().filter(|id| !core.contains(id)).cloned().collect();
     let others = if others.is_empty() {
         String::new()
     } else {
@@ -132,7 +143,7 @@ fn why_never(scene: &Scene, deadlock: &Deadlock) -> String {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        format!("\nOut of reach for good as well: {}{more}\n", ids(scene, &others[..others.len().min(MANY)]))
+        format!("\nOut of reach for good as well: {}{more}\n", ids(&others[..others.len().min(MANY)]))
     };
     format!(
         "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\
@@ -140,15 +151,13 @@ fn why_never(scene: &Scene, deadlock: &Deadlock) -> String {
     )
 }
 
-fn so_far(scene: &Scene, known: &Unplanned) -> String {
-    let needed = match &known.needed {
-        Some(needed) => format!("Would free the target, moved in this order: {}\n", ids(scene, needed)),
+fn so_far(statement: &Statement) -> String {
+    let needed = match &statement.needed {
+        Some(needed) => format!("Would free the target, moved in this order: {}\n", ids(needed)),
         None => String::new(),
     };
-    let bound = match &known.bound {
-        Some(bound) if bound.cost > 0 => {
-            format!("{}So at least {} must move.\n", why_bound(scene, bound), bound.cost)
-        }
+    let bound = match statement.lower_bound {
+        Some(bound) if bound > Cost::ZERO => format!("{}So at least {bound} must move.\n", why_bound(statement)),
         _ => String::new(),
     };
     let gap = if needed.is_empty() || bound.is_empty() { "" } else { "\n" };

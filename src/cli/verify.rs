@@ -9,7 +9,7 @@ use super::stopwatch::Stopwatch;
 use super::{Failure, configure, input, output, text};
 use crate::wire::{VerificationBody, read_plan};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::check;
+use singulate_planner::check::check;
 
 /// The arguments of `verify`.
 #[derive(Debug, Args)]
@@ -41,9 +41,9 @@ impl Verify {
         let config = configure(&self.flags.0)?;
         let request = input::scene(&self.scene, &config.server.limits)?;
         let plan = input::bytes(&self.plan)?;
-        let claim = read_plan(&plan, &request.scene).map_err(|problem| input::refused(&self.plan, &problem))?;
+        let statement = read_plan(&plan, &request.scene).map_err(|problem| input::refused(&self.plan, &problem))?;
         let clock = Stopwatch::start();
-        let report = check(&request.scene, &claim, &Budget::new(&clock, request.time_limit));
+        let report = check(&request.scene, &statement, &Budget::new(&clock, request.time_limit));
         match self.format {
             Format::Json => output::print_json(&VerificationBody::new(&report)),
             Format::Text => output::print(&text::verification(&VerificationBody::new(&report))),

@@ -8,9 +8,11 @@ use crate::wire::{
     read_scene, read_verify,
 };
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::NoBase;
-use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict, known};
+use singulate_planner::knowledge::{NoBase, known};
+use singulate_planner::paper::{GraspModelName, Judged};
+use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::search::SILENT;
+use singulate_planner::statement::Statement;
 
 /// Plans for the scene's target.
 #[derive(Debug, Clone, Copy)]
@@ -20,10 +22,10 @@ pub struct Plan(
 );
 
 impl Plan {
-    fn write(self, request: &PlanRequest, answer: &Answer) -> Served {
+    fn write(self, request: &PlanRequest, judged: &Judged) -> Served {
         match self.0 {
-            Form::Json => json(&AnswerBody::new(request, answer)),
-            Form::Svg => Ok(render::svg(&request.scene, answer).into_bytes()),
+            Form::Json => json(&AnswerBody::new(request, judged)),
+            Form::Svg => Ok(render::svg(&request.scene, judged).into_bytes()),
         }
     }
 }
@@ -36,17 +38,16 @@ impl Computation for Plan {
     }
 
     fn compute(self, tools: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
-        let answer = tools.engine.answer(request, budget, SILENT)?;
-        tools.metrics.planned(&answer);
-        self.write(request, &answer)
+        let judged = tools.answer(request, budget, SILENT)?;
+        self.write(request, &judged)
     }
 
     /// A time-out is a verdict, and has a drawing if the scene is known.
     fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
         match (known, self.0) {
             (Known::Request(request), _) => {
-                let verdict = Verdict::TimedOut(Unplanned::default());
-                self.write(request, &Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
+                let answer = Answer { statement: Statement::timed_out(), statistics: Statistics::default() };
+                self.write(request, &answer.into())
             }
             (Known::Glance(glance), Form::Json) => {
                 AnswerBody::unread(glance).map_or_else(|| Err(unread()), |body| json(&body))
@@ -68,8 +69,8 @@ impl Computation for Verification {
     }
 
     fn compute(self, tools: &Tools, stated: &VerifyRequest, budget: &Budget<'_>) -> Served {
-        let VerifyRequest { request, claim } = stated;
-        json(&VerificationBody::new(&(tools.engine.check)(&request.scene, claim, budget)))
+        let VerifyRequest { request, statement } = stated;
+        json(&VerificationBody::new(&(tools.engine.check)(&request.scene, statement, budget)))
     }
 
     fn too_late(self, _: Known<'_, VerifyRequest>) -> Served {
@@ -112,12 +113,13 @@ impl Computation for Knowledge {
     }
 
     fn compute(self, _: &Tools, request: &PlanRequest, budget: &Budget<'_>) -> Served {
-        let known = known(&request.scene, request.settings.grasp_model, budget);
+        let model = request.methods.grasp_model;
+        let known = known(&request.scene, model.model(), budget);
         let known = known.map_err(|error| match error {
             NoBase::Interrupted => late(),
             NoBase::TooLarge => Problem::too_dense(error.to_string()),
         })?;
-        json(&KnowledgeBody::new(&request.scene, &known))
+        json(&KnowledgeBody::new(&request.scene, &known, model == GraspModelName::Sector))
     }
 
     fn too_late(self, known: Known<'_, PlanRequest>) -> Served {

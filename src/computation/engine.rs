@@ -3,25 +3,27 @@
 use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::{self, Report};
-use singulate_planner::plan::{self, Answer, Claim, PlanError, Settings, SurveyEntry};
+use singulate_planner::check::{self, Report};
+use singulate_planner::paper::{self, Judged, Methods};
+use singulate_planner::plan::{self, PlanError, Settings, SurveyEntry};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
+use singulate_planner::statement::Statement;
 
 /// The computations: by default the planner's; tests may replace them.
 #[derive(Clone, Copy)]
 pub struct Engine {
     /// Plan for the scene's target.
-    pub plan: fn(&Scene, &Settings, &Budget<'_>, Progress<'_>) -> Result<Answer, PlanError>,
+    pub plan: fn(&Methods, &Scene, &Settings, &Budget<'_>, Progress<'_>) -> Result<Judged, PlanError>,
     /// Survey every movable object as the target.
     pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
-    /// Check a stated answer.
-    pub check: fn(&Scene, &Claim, &Budget<'_>) -> Report,
+    /// Check a statement.
+    pub check: fn(&Scene, &Statement, &Budget<'_>) -> Report,
 }
 
 impl Default for Engine {
     fn default() -> Self {
-        Self { plan: plan::plan_reporting, survey: plan::survey, check: check::check }
+        Self { plan: paper::plan_by, survey: plan::survey, check: check::check }
     }
 }
 
@@ -35,13 +37,13 @@ impl Engine {
         request: &PlanRequest,
         budget: &Budget<'_>,
         progress: Progress<'_>,
-    ) -> Result<Answer, Problem> {
+    ) -> Result<Judged, Problem> {
         let span = PlanSpan::begin();
-        let answer = (self.plan)(&request.scene, &request.settings, budget, progress);
-        if let (Some(span), Ok(answer)) = (&span, &answer) {
-            span.answered(answer);
+        let judged = (self.plan)(&request.methods, &request.scene, &request.settings, budget, progress);
+        if let (Some(span), Ok(judged)) = (&span, &judged) {
+            span.answered(&judged.answer);
         }
-        answer.map_err(|error| plan_failed(request, &error))
+        judged.map_err(|error| plan_failed(request, &error))
     }
 
     /// Survey a request's scene.
@@ -56,15 +58,15 @@ impl Engine {
 /// The scene is too dense, or the planner failed; then logs all that is needed to reproduce it.
 fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
-    let (scene, settings) = (written(request), &request.settings);
-    tracing::error!(%scene, ?settings, faults = ?report.faults, "an answer failed its check");
+    let (scene, settings, methods) = (written(request), &request.settings, &request.methods);
+    tracing::error!(%scene, ?settings, ?methods, faults = ?report.faults, "an answer failed its check");
     Problem::new(ProblemKind::CheckFailed, "the answer is withheld; the scene is in the log")
 }
 
 /// A computation panicked: logs all that is needed to reproduce it.
 pub(super) fn panicked(request: &PlanRequest) -> Problem {
-    let (scene, settings) = (written(request), &request.settings);
-    tracing::error!(%scene, ?settings, "a computation panicked");
+    let (scene, settings, methods) = (written(request), &request.settings, &request.methods);
+    tracing::error!(%scene, ?settings, ?methods, "a computation panicked");
     Problem::new(ProblemKind::Internal, "the request could not be answered; the scene is in the log")
 }
 

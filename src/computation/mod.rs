@@ -19,6 +19,8 @@ pub use reading::Known;
 use crate::metrics::Metrics;
 use crate::wire::{PlanRequest, Problem, RequestLimits};
 use singulate_planner::budget::Budget;
+use singulate_planner::paper::Judged;
+use singulate_planner::search::Progress;
 
 /// A kind of planning call. Its value holds the form of the answer, if there is a choice.
 pub trait Computation: Copy + Send + Sync + 'static {
@@ -51,6 +53,23 @@ pub struct Tools {
     pub engine: Engine,
     /// The metrics of answers.
     pub metrics: Arc<Metrics>,
+}
+
+impl Tools {
+    /// Plan for a request, and measure it.
+    ///
+    /// # Errors
+    /// A problem if there is no answer.
+    pub fn answer(
+        &self,
+        request: &PlanRequest,
+        budget: &Budget<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Judged, Problem> {
+        let judged = self.engine.answer(request, budget, progress)?;
+        self.metrics.planned(&judged.answer);
+        Ok(judged)
+    }
 }
 
 /// An answer's bytes.

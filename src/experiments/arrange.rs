@@ -7,7 +7,16 @@ use nalgebra::{Point2, Vector2};
 use rand_chacha::ChaCha8Rng;
 
 use super::recipe::{Arrangement, GenerateError, Recipe, between, whole_micrometres};
-use singulate_planner::scene::{Disc, distance};
+use singulate_planner::scene::distance;
+
+/// A disc on the floor, before it is an object of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Disc {
+    /// m.
+    pub(super) centre: Point2<f64>,
+    /// m.
+    pub(super) radius: f64,
+}
 
 /// Draws of a place for one disc before the attempt is given up.
 const TRIES: usize = 2_000;
@@ -74,7 +83,7 @@ impl Floor {
     fn put(&mut self, disc: Disc) -> bool {
         let (c, r) = (disc.centre, disc.radius);
         let on_table = c.x - r >= self.min.x && c.y - r >= self.min.y && c.x + r <= self.max.x && c.y + r <= self.max.y;
-        if !on_table || self.near(c, 1).any(|other| disc.gap(&other) < 0.0) {
+        if !on_table || self.near(c, 1).any(|other| distance(c, other.centre) - r - other.radius < 0.0) {
             return false;
         }
         self.cells.entry(self.cell_of(c)).or_default().push(self.discs.len());

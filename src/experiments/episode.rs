@@ -8,9 +8,13 @@ use super::papers_scene::{PapersScene, complete_base, papers_scene};
 use super::timed_search::{Ending, TimedSearch, timed_search};
 use super::workers::Patience;
 use singulate_planner::budget::{Budget, Clock};
+use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::KnowledgeBase;
-use singulate_planner::plan::{Answer, GraspModel, SearchMethod, Settings, Verdict, plan};
+use singulate_planner::paper::{GraspModelName, Judged, Methods, SearchMethod, plan_by};
+use singulate_planner::plan::Settings;
 use singulate_planner::scene::{ObjectIndex, Scene};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{Statement, Verdict};
 
 /// The results of one episode of Table I.
 #[derive(Debug)]
@@ -18,7 +22,7 @@ pub(super) struct Episode {
     pub(super) sector: OnBase,
     pub(super) swept_finger: OnBase,
     /// Our planner's answer with its default settings: places and check included.
-    pub(super) answer: Answer,
+    pub(super) judged: Judged,
     /// Its time.
     pub(super) planning: Duration,
 }
@@ -58,21 +62,22 @@ pub(super) fn episode(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> 
     let sector = OnBase::new(knowledge, &sector, scene.target(), patience);
 
     let watch = patience.watch();
-    let base = complete_base(case, seed, &scene, GraspModel::SweptFinger, &watch)?;
+    let base = complete_base(case, seed, &scene, GraspModelName::SweptFinger, &watch)?;
     let mut swept_finger = OnBase::new(watch.elapsed(), &base, scene.target(), patience);
 
-    let (answer, planning) = planned(&scene, &Settings::default(), patience).map_err(failed)?;
+    let (judged, planning) = planned(&scene, &Methods::default(), patience).map_err(failed)?;
     for on_base in [&sector, &swept_finger] {
         not_refuted(on_base.lobs.ending, on_base.ours.ending).map_err(failed)?;
     }
-    if !agree(swept_finger.ours.ending, &answer.verdict) {
+    let statement = judged.statement();
+    if !agree(swept_finger.ours.ending, statement) {
         return Err(failed(Cause::Contradicted(swept_finger.ours.ending)));
     }
     // By the swept finger only checked plans count as ours.
-    if matches!(answer.verdict, Verdict::TimedOut(_)) {
+    if statement.verdict == Some(Verdict::TimedOut) {
         (swept_finger.ours.ending, swept_finger.ours.time) = (Ending::Late, patience.limit);
     }
-    Ok(Episode { sector, swept_finger, answer, planning })
+    Ok(Episode { sector, swept_finger, judged, planning })
 }
 
 /// The baseline in the scene of one seed: by the sector model, then by the swept finger.
@@ -82,11 +87,16 @@ pub(super) fn baseline(
     patience: &Patience<'_>,
 ) -> Result<[TimedSearch; 2], ExperimentError> {
     let PapersScene { scene, sector, .. } = papers_scene(case, seed, patience)?;
-    let swept_finger = complete_base(case, seed, &scene, GraspModel::SweptFinger, &patience.watch())?;
+    let swept_finger = complete_base(case, seed, &scene, GraspModelName::SweptFinger, &patience.watch())?;
     Ok([sector, swept_finger].map(|base| timed_search(SearchMethod::ForwardAstar, &base, scene.target(), patience)))
 }
 
 impl Episode {
+    /// What our planner states.
+    pub(super) fn statement(&self) -> &Statement {
+        self.judged.statement()
+    }
+
     /// Add the baseline's result for the same scene.
     pub(super) fn add(&mut self, baseline: [TimedSearch; 2]) -> Result<(), Cause> {
         for (on_base, search) in [&mut self.sector, &mut self.swept_finger].into_iter().zip(baseline) {
@@ -98,14 +108,11 @@ impl Episode {
 }
 
 /// The planner's answer, and its time.
-pub(super) fn planned(
-    scene: &Scene,
-    settings: &Settings,
-    patience: &Patience<'_>,
-) -> Result<(Answer, Duration), Cause> {
+pub(super) fn planned(scene: &Scene, methods: &Methods, patience: &Patience<'_>) -> Result<(Judged, Duration), Cause> {
     let watch = patience.watch();
-    let answer = plan(scene, settings, &Budget::new(&watch, patience.limit)).map_err(Cause::Plan)?;
-    Ok((answer, watch.elapsed()))
+    let budget = Budget::new(&watch, patience.limit);
+    let judged = plan_by(methods, scene, &Settings::default(), &budget, SILENT).map_err(Cause::Plan)?;
+    Ok((judged, watch.elapsed()))
 }
 
 /// Fails if another search beats our proof: every search finds derivations, so the fault would be in our proof.
@@ -119,25 +126,21 @@ fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
 }
 
 /// True if search and planner agree, as far as each got.
-fn agree(ours: Ending, verdict: &Verdict) -> bool {
-    match (ours, verdict) {
-        (Ending::Late | Ending::TooLarge, _) | (_, Verdict::TimedOut(_)) => true,
-        (Ending::Deadlock, verdict) => matches!(verdict, Verdict::Deadlock(_)),
-        (Ending::Sequence(least), Verdict::Graspable(_)) => least == 0,
-        (Ending::Sequence(least), Verdict::Relocate(plan)) => {
-            plan.cost() >= least && plan.bound.as_ref().is_some_and(|bound| bound.cost <= least)
-        }
-        (Ending::Sequence(least), Verdict::NoSpace(rest)) => {
-            rest.bound.as_ref().is_some_and(|bound| bound.cost <= least)
-        }
-        (Ending::Sequence(_), Verdict::Deadlock(_)) => false,
+fn agree(ours: Ending, stated: &Statement) -> bool {
+    let (cost, bound) = (stated.cost.map(Cost::get), stated.lower_bound.map(Cost::get));
+    match (ours, stated.verdict) {
+        (Ending::Late | Ending::TooLarge, _) | (_, Some(Verdict::TimedOut) | None) => true,
+        (Ending::Deadlock, verdict) => verdict == Some(Verdict::Deadlock),
+        (Ending::Sequence(least), Some(Verdict::Graspable)) => least == 0,
+        (Ending::Sequence(least), Some(Verdict::Relocate)) => cost >= Some(least) && bound <= Some(least),
+        (Ending::Sequence(least), Some(Verdict::NoSpace)) => bound <= Some(least),
+        (Ending::Sequence(_), Some(Verdict::Deadlock)) => false,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use singulate_planner::plan::Unplanned;
 
     #[test]
     fn a_shorter_sequence_or_one_in_spite_of_a_deadlock_refutes_our_proof() {
@@ -151,10 +154,12 @@ mod tests {
 
     #[test]
     fn a_planner_that_contradicts_the_search_is_noticed() {
-        let late = Verdict::TimedOut(Unplanned::default());
-        assert!(agree(Ending::Sequence(1), &late) && agree(Ending::Late, &Verdict::Deadlock(None)));
-        assert!(!agree(Ending::Sequence(1), &Verdict::Deadlock(None)));
-        assert!(agree(Ending::Deadlock, &Verdict::Deadlock(None)));
-        assert!(!agree(Ending::Deadlock, &Verdict::NoSpace(Unplanned::default())));
+        let late = Statement::timed_out();
+        let stated = |verdict| Statement { verdict: Some(verdict), ..Statement::default() };
+        let deadlock = stated(Verdict::Deadlock);
+        assert!(agree(Ending::Sequence(1), &late) && agree(Ending::Late, &deadlock));
+        assert!(!agree(Ending::Sequence(1), &deadlock));
+        assert!(agree(Ending::Deadlock, &deadlock));
+        assert!(!agree(Ending::Deadlock, &stated(Verdict::NoSpace)));
     }
 }

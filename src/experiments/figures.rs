@@ -4,13 +4,14 @@ use super::episode::{Episode, OnBase};
 use super::interval::Interval;
 use super::spread::Spread;
 use super::timed_search::{Ending, TimedSearch};
-use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
+use singulate_planner::paper::{GraspModelName, SearchMethod};
+use singulate_planner::statement::Verdict;
 
 /// All methods on the bases of one grasp model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelFigures {
     /// The yaws that an obstacle blocks.
-    pub grasp_model: GraspModel,
+    pub grasp_model: GraspModelName,
     /// The time for a complete base, s.
     pub knowledge_s: Option<Spread>,
     /// The baseline, LOBS, ours.
@@ -68,7 +69,7 @@ pub struct PlanFigures {
 }
 
 impl ModelFigures {
-    pub(super) fn new<'e>(grasp_model: GraspModel, episodes: impl Iterator<Item = &'e OnBase> + Clone) -> Self {
+    pub(super) fn new<'e>(grasp_model: GraspModelName, episodes: impl Iterator<Item = &'e OnBase> + Clone) -> Self {
         let methods = [SearchMethod::ForwardAstar, SearchMethod::Lobs, SearchMethod::Landmarks];
         Self {
             grasp_model,
@@ -122,19 +123,18 @@ impl MethodFigures {
 impl PlanFigures {
     pub(super) fn new<'e>(episodes: impl Iterator<Item = &'e Episode>) -> Self {
         let episodes: Vec<&Episode> = episodes.collect();
-        let count = |of: fn(&Verdict) -> bool| episodes.iter().filter(|episode| of(&episode.answer.verdict)).count();
-        let costs = episodes.iter().filter_map(|episode| match &episode.answer.verdict {
-            Verdict::Relocate(plan) => Some(plan.cost() as f64),
-            _ => None,
-        });
+        let count = |verdict| episodes.iter().filter(|episode| episode.statement().verdict == Some(verdict)).count();
+        let plans = episodes.iter().map(|episode| episode.statement());
+        let plans = plans.filter(|statement| statement.verdict == Some(Verdict::Relocate));
+        let costs = plans.clone().filter_map(|statement| statement.cost).map(|cost| cost.get() as f64);
         Self {
             episodes: episodes.len(),
-            graspable: count(|verdict| matches!(verdict, Verdict::Graspable(_))),
-            relocate: count(|verdict| matches!(verdict, Verdict::Relocate(_))),
-            optimal: count(|verdict| matches!(verdict, Verdict::Relocate(plan) if plan.optimal())),
-            deadlock: count(|verdict| matches!(verdict, Verdict::Deadlock(_))),
-            no_space: count(|verdict| matches!(verdict, Verdict::NoSpace(_))),
-            timed_out: count(|verdict| matches!(verdict, Verdict::TimedOut(_))),
+            graspable: count(Verdict::Graspable),
+            relocate: count(Verdict::Relocate),
+            optimal: plans.filter(|statement| statement.optimal == Some(true)).count(),
+            deadlock: count(Verdict::Deadlock),
+            no_space: count(Verdict::NoSpace),
+            timed_out: count(Verdict::TimedOut),
             relocations_mean: Spread::of(costs).map(|costs| costs.mean),
             plan_s: Spread::of_times(episodes.iter().map(|episode| episode.planning)),
         }

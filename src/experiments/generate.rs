@@ -4,8 +4,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::arrange;
+use super::arrange::Disc;
 use super::recipe::{GenerateError, Recipe, rectangle};
-use singulate_planner::scene::{Disc, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, TableDraft};
+use singulate_planner::scene::{ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft};
 
 /// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; discs don't
 /// overlap and none hangs over the table's edge. The target is the most crowded object.
@@ -34,7 +35,7 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
         id: Some(format!("o{at}")),
         x: Some(disc.centre.x),
         y: Some(disc.centre.y),
-        radius: Some(disc.radius),
+        shape: ShapeDraft::disc(disc.radius),
         fixed: false,
     };
     let (min, max) = recipe.corners();
@@ -49,13 +50,13 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
 /// The object with the most neighbours in reach of its grasp; ties go to the one with the closest neighbours.
 fn most_crowded(scene: &Scene) -> ObjectIndex {
     let crowd = |index: ObjectIndex| {
-        let disc = scene.object(index).disc();
-        let reach = scene.gripper().corner_distance(disc.radius) + scene.gripper().margin();
+        let footprint = scene.object(index).footprint();
+        let reach = scene.gripper().reach(&footprint);
         let mut gaps: Vec<f64> = scene
             .index()
-            .within(disc.centre, reach)
+            .within(footprint.at(), reach)
             .filter(|(other, _)| *other != index)
-            .map(|(_, other)| other.gap(&disc))
+            .map(|(_, other)| other.gap(&footprint))
             .collect();
         // Sums depend on the order of their terms, and the index gives them in no fixed order.
         gaps.sort_unstable_by(f64::total_cmp);
@@ -86,7 +87,7 @@ mod tests {
     fn least_gaps(scene: &Scene) -> impl Iterator<Item = f64> + '_ {
         scene.indices().map(|one| {
             let others = scene.indices().filter(move |&other| other != one);
-            let gap = |other| scene.object(one).disc().gap(&scene.object(other).disc());
+            let gap = |other| scene.object(one).footprint().gap(&scene.object(other).footprint());
             others.map(gap).fold(f64::INFINITY, f64::min)
         })
     }
@@ -96,7 +97,7 @@ mod tests {
         for seed in 0..20 {
             let scene = scene(&Recipe { origin: (-3.0, 7.0), radius: (0.02, 0.09), ..Recipe::default() }, seed);
             assert!(least_gaps(&scene).all(|gap| gap >= 0.0));
-            assert!(scene.objects().iter().all(|object| scene.table().top().inner_gap(&object.disc()) >= 0.0));
+            assert!(scene.objects().iter().all(|object| object.footprint().gap_inside(&scene.table().top()) >= 0.0));
         }
     }
 
@@ -141,8 +142,8 @@ mod tests {
         assert_eq!(scene.objects().iter().filter(|object| !object.fixed()).count(), 1);
         let target = scene.object(scene.target());
         assert!(!target.fixed());
-        let reach = scene.gripper().corner_distance(target.disc().radius);
-        assert!(scene.index().within(target.disc().centre, reach).count() > 5);
+        let reach = scene.gripper().corner_distance(&target.footprint());
+        assert!(scene.index().within(target.footprint().at(), reach).count() > 5);
     }
 
     #[test]

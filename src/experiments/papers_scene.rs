@@ -10,7 +10,7 @@ use super::recipe::GenerateError;
 use super::workers::Patience;
 use singulate_planner::budget::{Budget, Clock};
 use singulate_planner::knowledge::{KnowledgeBase, complete};
-use singulate_planner::plan::GraspModel;
+use singulate_planner::paper::GraspModelName;
 use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
 
 /// The distance between the seeds of two columns, since columns with the same table would otherwise share scenes.
@@ -43,7 +43,7 @@ pub(super) fn papers_scene(
     let (scene, _) =
         Scene::new(draft, &SceneLimits::default()).map_err(|findings| no_scene(GenerateError::Scene(findings)))?;
     let watch = patience.watch();
-    let sector = complete_base(case, seed, &scene, GraspModel::Sector, &watch)?;
+    let sector = complete_base(case, seed, &scene, GraspModelName::Sector, &watch)?;
     let knowledge = watch.elapsed();
     let scene = scene.with_target(hardest(&sector)).expect("nothing is fixed in the paper's cases");
     Ok(PapersScene { scene, sector, knowledge })
@@ -54,10 +54,10 @@ pub(super) fn complete_base(
     case: &PapersCase,
     seed: u64,
     scene: &Scene,
-    model: GraspModel,
+    model: GraspModelName,
     watch: &dyn Clock,
 ) -> Result<KnowledgeBase, ExperimentError> {
-    complete(scene, model.options_of(), &Budget::new(watch, Duration::MAX)).map_err(|error| ExperimentError {
+    complete(scene, model.model(), &Budget::new(watch, Duration::MAX)).map_err(|error| ExperimentError {
         objects: case.objects,
         seed,
         cause: Cause::Knowledge(error),

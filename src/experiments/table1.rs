@@ -8,7 +8,8 @@ use super::papers_cases::{PAPERS_CASES, PapersCase};
 use super::papers_scene::seed_of;
 use super::timed_search::Ending;
 use super::workers::{Patience, in_parallel};
-use singulate_planner::plan::{GraspModel, SearchMethod, Verdict};
+use singulate_planner::paper::{GraspModelName, SearchMethod};
+use singulate_planner::statement::Verdict;
 
 /// One column of Table I.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,12 +63,12 @@ pub fn table1(
 impl Table1Column {
     fn new(case: PapersCase, episodes: &[Episode]) -> Self {
         let extra = episodes.iter().filter(|episode| episode.sector.ours.ending == Ending::Deadlock);
-        let extra = extra.filter(|episode| !matches!(episode.answer.verdict, Verdict::Deadlock(_)));
+        let extra = extra.filter(|episode| episode.statement().verdict != Some(Verdict::Deadlock));
         Self {
             case,
-            sector: ModelFigures::new(GraspModel::Sector, episodes.iter().map(|episode| &episode.sector)),
+            sector: ModelFigures::new(GraspModelName::Sector, episodes.iter().map(|episode| &episode.sector)),
             swept_finger: ModelFigures::new(
-                GraspModel::SweptFinger,
+                GraspModelName::SweptFinger,
                 episodes.iter().map(|episode| &episode.swept_finger),
             ),
             plans: PlanFigures::new(episodes.iter()),
@@ -101,7 +102,8 @@ mod tests {
     use super::*;
     use crate::experiments::episode::OnBase;
     use crate::experiments::timed_search::TimedSearch;
-    use singulate_planner::plan::{Answer, Statistics, Unplanned};
+    use singulate_planner::plan::{Answer, Statistics};
+    use singulate_planner::statement::Statement;
 
     const SECOND: Duration = Duration::from_secs(1);
 
@@ -112,25 +114,25 @@ mod tests {
 
     /// LOBS and ours agree on both bases.
     fn agreed(sector: Ending, swept_finger: Ending, verdict: Verdict) -> Episode {
-        let answer = Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() };
+        let statement = Statement { verdict: Some(verdict), ..Statement::default() };
+        let judged = Answer { statement, statistics: Statistics::default() }.into();
         let [sector, swept_finger] = [sector, swept_finger].map(on_base);
-        Episode { sector, swept_finger, answer, planning: SECOND }
+        Episode { sector, swept_finger, judged, planning: SECOND }
     }
 
     #[test]
     fn an_extra_plan_is_one_where_only_the_sector_model_says_deadlock() {
         use Ending::{Deadlock, Sequence};
-        let no_space = || Verdict::NoSpace(Unplanned::default());
         let mut episodes = vec![
-            agreed(Deadlock, Deadlock, Verdict::Deadlock(None)),
-            agreed(Deadlock, Sequence(2), no_space()),
-            agreed(Sequence(2), Sequence(1), no_space()),
+            agreed(Deadlock, Deadlock, Verdict::Deadlock),
+            agreed(Deadlock, Sequence(2), Verdict::NoSpace),
+            agreed(Sequence(2), Sequence(1), Verdict::NoSpace),
         ];
         let column = Table1Column::new(PAPERS_CASES[0], &episodes);
         assert_eq!((column.plans.episodes, column.plans.deadlock, column.plans.no_space), (3, 1, 2));
         assert_eq!((column.extra.episodes, column.extra.no_space), (1, 1));
         assert_eq!((column.deadlock_ratio(), column.at_most_half()), (Some(0.5), true));
-        episodes.push(agreed(Deadlock, Deadlock, Verdict::Deadlock(None)));
+        episodes.push(agreed(Deadlock, Deadlock, Verdict::Deadlock));
         assert!(!Table1Column::new(PAPERS_CASES[0], &episodes).at_most_half());
         let column = Table1Column::new(PAPERS_CASES[0], &episodes[2..3]);
         assert_eq!((column.deadlock_ratio(), column.at_most_half()), (None, true));
@@ -140,7 +142,7 @@ mod tests {
     fn a_column_disagrees_where_the_intervals_do_not_overlap() {
         let disagrees = |deadlocks: usize| {
             let ending = |at| if at < deadlocks { Ending::Deadlock } else { Ending::Sequence(1) };
-            let episode = |at| agreed(ending(at), ending(at), Verdict::Deadlock(None));
+            let episode = |at| agreed(ending(at), ending(at), Verdict::Deadlock);
             Table1Column::new(PAPERS_CASES[0], &(0..400).map(episode).collect::<Vec<_>>()).disagrees()
         };
         // The paper's 4 in 20: 8.1 to 41.6 %. 5 % of 400 are 3.3 to 7.6 %.

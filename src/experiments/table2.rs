@@ -11,10 +11,11 @@ use super::papers_scene::{papers_scene, seed_of};
 use super::spread::Spread;
 use super::timed_search::{Ending, timed_search};
 use super::workers::{Patience, in_parallel};
+use singulate_planner::check::FaultCode;
 use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster};
-use singulate_planner::plan::check::FaultCode;
-use singulate_planner::plan::{Answer, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning};
+use singulate_planner::paper::{GraspModelName, Judged, Methods, PlacementMethod, SearchMethod, Warning};
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::Verdict;
 
 /// The compared placement methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,7 +85,7 @@ pub struct PlacementFigures {
 /// One placement method's result for one sequence.
 struct Placed {
     placement: Repositioning,
-    answer: Answer,
+    judged: Judged,
     time: Duration,
 }
 
@@ -159,51 +160,47 @@ fn place(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Vec<Pl
 
 fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) -> Result<Placed, Cause> {
     let method = placement.method(scene);
-    let settings = Settings {
-        grasp_model: GraspModel::Sector,
-        search: SearchMethod::Lobs,
-        placement: method,
-        ..Settings::default()
+    let methods = Methods { grasp_model: GraspModelName::Sector, search: SearchMethod::Lobs, placement: method };
+    let (judged, _) = planned(scene, &methods, patience)?;
+    let time = match judged.statement().verdict {
+        Some(Verdict::TimedOut) => patience.limit,
+        _ => judged.answer.statistics.placement,
     };
-    let (answer, _) = planned(scene, &settings, patience)?;
-    let time = match answer.verdict {
-        Verdict::TimedOut(_) => patience.limit,
-        _ => answer.statistics.placement,
-    };
-    Ok(Placed { placement, answer, time })
+    Ok(Placed { placement, judged, time })
 }
 
 impl PlacementFigures {
     fn new<'e>(placement: Repositioning, episodes: impl Iterator<Item = &'e Placed> + Clone) -> Self {
-        let count = |of: &dyn Fn(&Answer) -> bool| episodes.clone().filter(|placed| of(&placed.answer)).count();
-        let sought = episodes.clone().filter(|placed| !is_graspable(&placed.answer));
+        let count = |of: &dyn Fn(&Judged) -> bool| episodes.clone().filter(|placed| of(&placed.judged)).count();
+        let ended = |verdict| count(&|judged| judged.statement().verdict == Some(verdict));
+        let sought = episodes.clone().filter(|placed| !is_graspable(&placed.judged));
         let mut by_code = BTreeMap::new();
-        for code in episodes.clone().flat_map(|placed| faults(&placed.answer)) {
+        for code in episodes.clone().flat_map(|placed| faults(&placed.judged)) {
             *by_code.entry(code.name()).or_default() += 1;
         }
         Self {
             placement,
             episodes: episodes.clone().count(),
-            successes: count(&|answer| matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_))),
-            graspable: count(&is_graspable),
-            no_space: count(&|answer| matches!(answer.verdict, Verdict::NoSpace(_))),
-            late: count(&|answer| matches!(answer.verdict, Verdict::TimedOut(_))),
+            successes: ended(Verdict::Relocate) + ended(Verdict::Graspable),
+            graspable: ended(Verdict::Graspable),
+            no_space: ended(Verdict::NoSpace),
+            late: ended(Verdict::TimedOut),
             reposition_s: Spread::of_times(sought.map(|placed| placed.time)),
-            faulty: count(&Answer::faulty),
-            release_blocked: count(&|answer| faults(answer).any(|code| code == FaultCode::ReleaseBlocked)),
-            otherwise_faulty: count(&|answer| faults(answer).any(|code| code != FaultCode::ReleaseBlocked)),
+            faulty: count(&Judged::faulty),
+            release_blocked: count(&|judged| faults(judged).any(|code| code == FaultCode::ReleaseBlocked)),
+            otherwise_faulty: count(&|judged| faults(judged).any(|code| code != FaultCode::ReleaseBlocked)),
             faults: by_code,
         }
     }
 }
 
-fn is_graspable(answer: &Answer) -> bool {
-    matches!(answer.verdict, Verdict::Graspable(_))
+fn is_graspable(judged: &Judged) -> bool {
+    judged.statement().verdict == Some(Verdict::Graspable)
 }
 
 /// The checker's faults in an answer.
-fn faults(answer: &Answer) -> impl Iterator<Item = FaultCode> {
-    answer.warnings.iter().filter_map(|warning| match warning {
+fn faults(judged: &Judged) -> impl Iterator<Item = FaultCode> {
+    judged.warnings.iter().filter_map(|warning| match warning {
         Warning::Faulty(fault) => Some(fault.code),
         _ => None,
     })

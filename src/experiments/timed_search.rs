@@ -5,8 +5,9 @@ use core::time::Duration;
 use super::workers::Patience;
 use singulate_planner::budget::{Budget, Clock};
 use singulate_planner::knowledge::KnowledgeBase;
-use singulate_planner::plan::{SearchLimits, SearchMethod, Sought, seek_within};
+use singulate_planner::paper::{SearchLimits, SearchMethod, Sought, seek};
 use singulate_planner::scene::ObjectIndex;
+use singulate_planner::search::SILENT;
 
 /// Some 100 bytes per state of the baseline for the paper's scenes, whose sets of objects fit into one word; some 50 MB
 /// for LOBS.
@@ -16,7 +17,7 @@ const LIMITS: SearchLimits = SearchLimits { lobs_members: 5_000_000, astar_state
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
     /// A sequence of this many relocations, without the target.
-    Sequence(usize),
+    Sequence(u64),
     /// A deadlock.
     Deadlock,
     /// The time limit.
@@ -42,9 +43,9 @@ pub(super) fn timed_search(
 ) -> TimedSearch {
     let watch = patience.watch();
     let budget = Budget::new(&watch, patience.limit);
-    let ending = match seek_within(method, base, target, &LIMITS, &budget) {
-        Sought::Least(known) => Ending::Sequence(known.bound),
-        Sought::Sequence(derivation) => Ending::Sequence(derivation.order.len()),
+    let ending = match seek(method, base, target, &LIMITS, &budget, SILENT) {
+        Sought::Least(known) => Ending::Sequence(known.bound.get()),
+        Sought::Sequence(derivation) => Ending::Sequence(derivation.cost().get()),
         Sought::Nothing => Ending::Deadlock,
         Sought::Best(_) | Sought::TooLate => Ending::Late,
         Sought::TooLarge => Ending::TooLarge,

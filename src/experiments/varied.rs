@@ -108,7 +108,7 @@ mod tests {
         for seed in 0..500 {
             let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
             fingers[scene.gripper().fingers() as usize] += 1;
-            let radius = |at: usize| scene.objects()[at].disc().radius;
+            let radius = |at: usize| scene.objects()[at].footprint().circumradius();
             fixed += usize::from(scene.objects().iter().any(singulate_planner::scene::Object::fixed));
             mixed += usize::from(scene.objects().len() > 1 && (radius(0) - radius(1)).abs() > 1e-9);
             keep_out += usize::from(!scene.table().keep_out().is_empty());

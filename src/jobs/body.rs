@@ -3,7 +3,6 @@
 use super::job::{Event, EventKind, Job, JobState};
 use super::timestamp::Timestamp;
 use crate::wire::{IncumbentBody, JobBody, JobStateWord};
-use singulate_planner::search::Incumbent;
 
 impl Job {
     /// The job as it is served.
@@ -20,7 +19,7 @@ impl Job {
             queue_position: self.queue_position,
             scene_sha256: self.scene_sha256.clone(),
             version: self.version.clone().unwrap_or_else(|| env!("CARGO_PKG_VERSION").to_owned()),
-            incumbent: self.incumbent.map(|Incumbent { cost, lower_bound }| IncumbentBody { cost, lower_bound }),
+            incumbent: self.incumbent.map(IncumbentBody::from),
             result: self.result.clone(),
             problem: self.problem.clone(),
         }

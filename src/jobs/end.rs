@@ -2,7 +2,7 @@
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
-use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson, VerdictWord};
+use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson};
 
 /// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,7 +29,7 @@ impl End {
 /// How a worker's job ends, in full and for logs and metrics.
 pub(super) struct Concluded {
     pub(super) end: End,
-    pub(super) verdict: Option<VerdictWord>,
+    pub(super) verdict: Option<&'static str>,
     pub(super) cause: Option<Cause>,
 }
 
@@ -40,10 +40,11 @@ impl Concluded {
     }
 }
 
-impl From<&AnswerBody> for Concluded {
-    fn from(answer: &AnswerBody) -> Self {
+impl Concluded {
+    /// With an answer of this verdict.
+    pub(super) fn with(answer: &AnswerBody<'_>, verdict: &'static str) -> Self {
         match RawJson::write(answer) {
-            Ok(json) => Self { end: End::Succeeded(json), verdict: Some(answer.verdict), cause: None },
+            Ok(json) => Self { end: End::Succeeded(json), verdict: Some(verdict), cause: None },
             Err(error) => {
                 tracing::error!(%error, "an answer could not be written");
                 Self::internal()

@@ -142,6 +142,7 @@ mod tests {
     use super::*;
     use crate::jobs::{Cancellation, JobId, JobSettings, NewJob, Owner, open};
     use crate::metrics::Metrics;
+    use singulate_planner::cost::Cost;
 
     /// A renewal is due after 20 s, so news within the test's patience did not come from one.
     const LEASE: Duration = Duration::from_secs(60);
@@ -212,8 +213,8 @@ mod tests {
         }
     }
 
-    fn cost(cost: usize) -> Incumbent {
-        Incumbent { cost, lower_bound: 1 }
+    fn cost(cost: u64) -> Incumbent {
+        Incumbent { cost: Cost::new(cost), lower_bound: Cost::new(1) }
     }
 
     #[tokio::test]

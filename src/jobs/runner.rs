@@ -19,8 +19,9 @@ use super::settings::JobSettings;
 use super::store::{Claimed, Store};
 use super::timestamp::{Timestamp, WallClock};
 use super::upkeep::{Pause, sweep};
-use super::work::{Lines, Tools, Work};
+use super::work::{Lines, Work};
 use crate::computation::Engine;
+use crate::computation::Tools;
 use crate::metrics::{Ended, Metrics, Queue};
 use crate::wire::RequestLimits;
 use crate::workers::{Draining, Pool, Recall};
@@ -33,6 +34,7 @@ pub struct Runner {
     store: Arc<dyn Store>,
     pool: Pool,
     tools: Tools,
+    limits: RequestLimits,
     lease: Duration,
     slots: Arc<Semaphore>,
     running: Mutex<HashMap<JobId, Running>>,
@@ -69,7 +71,8 @@ impl Runner {
             store,
             // A thread may need a moment to become idle after its job.
             pool: Pool::new(threads, threads)?,
-            tools: Tools { engine, limits, metrics },
+            tools: Tools { engine, metrics },
+            limits,
             lease: settings.lease,
             slots: Arc::new(Semaphore::new(threads)),
             running: Mutex::default(),
@@ -138,7 +141,7 @@ impl Runner {
         self.tools.metrics.waited(Queue::Job, Timestamp::now().since(claimed.created_at));
         let (watcher, mut incumbent) = watch::channel(None);
         let held = Held::new(Arc::clone(&self.store), claim, self.lease);
-        let Ok(work) = Work::begin(mem::take(&mut claimed.body), &self.pool, &self.tools, watcher) else {
+        let Ok(work) = Work::begin(mem::take(&mut claimed.body), &self.pool, &self.tools, self.limits, watcher) else {
             return held.hand_back().await;
         };
         let lines = Lines::begin(&claimed, work.scene_id());

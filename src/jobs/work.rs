@@ -9,26 +9,19 @@ use super::end::Concluded;
 use super::job::{JobId, Owner};
 use super::store::{Claim, Claimed};
 use super::timestamp::Timestamp;
-use crate::computation::Engine;
-use crate::metrics::{Ended, Metrics, milliseconds};
+use crate::computation::Tools;
+use crate::metrics::{Ended, milliseconds};
 use crate::wire::{AnswerBody, Glance, Problem, RequestLimits, read_job};
 use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
 use singulate_planner::budget::Budget;
 use singulate_planner::search::{Incumbent, Progress};
+use singulate_planner::statement::Verdict;
 
 /// One owner for all jobs in the pool: the store already takes owners in turn, so a claimed job must not wait again.
 const WORKER: &str = "worker";
 
 /// The fence of a job's first claim.
 const FIRST: i64 = 1;
-
-/// The worker's shared tools.
-#[derive(Clone)]
-pub(super) struct Tools {
-    pub(super) engine: Engine,
-    pub(super) limits: RequestLimits,
-    pub(super) metrics: Arc<Metrics>,
-}
 
 /// A job in a worker.
 pub(super) struct Work {
@@ -46,19 +39,17 @@ impl Work {
         body: Vec<u8>,
         pool: &Pool,
         tools: &Tools,
+        limits: RequestLimits,
         watcher: watch::Sender<Option<Incumbent>>,
     ) -> Result<Self, Refused> {
         let (arrival, body) = (Instant::now(), Arc::new(body));
-        let glance = Glance::at(&body, &tools.limits);
+        let glance = Glance::at(&body, &limits);
         let (own, tools) = (Arc::clone(&body), tools.clone());
         let job = move |budget: &Budget<'_>| {
             let observer = |incumbent| {
                 watcher.send_if_modified(|last| last.replace(incumbent) != Some(incumbent));
             };
-            match plan(&own, &tools, budget, &observer) {
-                Ok(answer) => (&answer).into(),
-                Err(problem) => problem.into(),
-            }
+            plan(&own, &tools, &limits, budget, &observer).unwrap_or_else(Concluded::from)
         };
         let pending = pool.submit(WORKER, arrival, glance.time_limit, job)?;
         Ok(Self { pending, body, glance })
@@ -79,9 +70,8 @@ impl Work {
         match self.pending.outcome().await {
             Outcome::Done(concluded) => concluded,
             // Only a planner that ignores its time is abandoned; its best so far is not available.
-            Outcome::TimedOut => {
-                AnswerBody::unread(&self.glance).map_or_else(Concluded::internal, |answer| (&answer).into())
-            }
+            Outcome::TimedOut => AnswerBody::unread(&self.glance)
+                .map_or_else(Concluded::internal, |answer| Concluded::with(&answer, Verdict::TimedOut.as_str())),
             Outcome::Panicked => {
                 tracing::error!(scene = %String::from_utf8_lossy(&self.body), "planning panicked");
                 Concluded::internal()
@@ -90,12 +80,17 @@ impl Work {
     }
 }
 
-fn plan(body: &[u8], tools: &Tools, budget: &Budget<'_>, progress: Progress<'_>) -> Result<AnswerBody, Problem> {
+fn plan(
+    body: &[u8],
+    tools: &Tools,
+    limits: &RequestLimits,
+    budget: &Budget<'_>,
+    progress: Progress<'_>,
+) -> Result<Concluded, Problem> {
     // The body was valid when accepted, but maybe by another version with other limits.
-    let request = read_job(body, &tools.limits)?.plan;
-    let answer = tools.engine.answer(&request, budget, progress)?;
-    tools.metrics.planned(&answer);
-    Ok(AnswerBody::new(&request, &answer))
+    let request = read_job(body, limits)?.plan;
+    let judged = tools.answer(&request, budget, progress)?;
+    Ok(Concluded::with(&AnswerBody::new(&request, &judged), judged.statement().verdict_name()))
 }
 
 /// The log lines of one worker about one job.
@@ -122,7 +117,7 @@ impl Lines {
     pub(super) fn end(&self, state: Ended, concluded: &Concluded) {
         let Self { job, owner, scene_id, started } = self;
         let (owner, state, ms) = (owner.as_str(), state.as_str(), milliseconds(started.elapsed()));
-        let verdict = concluded.verdict.map(tracing::field::display);
+        let verdict = concluded.verdict;
         let problem = concluded.cause.map(|cause| tracing::field::display(cause.problem));
         let code = concluded.cause.and_then(|cause| cause.code).map(tracing::field::display);
         tracing::info!(%job, owner, scene_id, state, verdict, problem, code, ms, "job ended");

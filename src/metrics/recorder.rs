@@ -71,7 +71,7 @@ impl Metrics {
             self.families.phases.get_or_create(&[("phase", phase)]).observe(took.as_secs_f64());
         }
         let whole: Duration = phases.into_iter().map(|(_, took)| took).sum();
-        let labels = [("verdict", answer.verdict.as_str())];
+        let labels = [("verdict", answer.statement.verdict_name())];
         self.families.planning.get_or_create(&labels).observe(whole.as_secs_f64());
     }
 

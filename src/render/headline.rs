@@ -6,91 +6,98 @@ use svg::node::element::Group;
 use super::label;
 use super::paint;
 use super::view::{PADDING, View};
-use singulate_planner::plan::{Answer, LowerBound, Plan, Verdict, Warning};
-use singulate_planner::scene::{ObjectIndex, Scene};
+use singulate_planner::cost::Cost;
+use singulate_planner::paper::{Judged, Warning};
+use singulate_planner::scene::Scene;
+use singulate_planner::statement::{Deadlock, Statement, Step, Verdict};
 
 /// The verdict in one line, without ids.
-pub fn headline(answer: &Answer) -> String {
-    match &answer.verdict {
-        Verdict::Graspable(_) if answer.faulty() => {
+pub fn headline(judged: &Judged) -> String {
+    let stated = judged.statement();
+    match stated.verdict {
+        Some(Verdict::Graspable) if judged.faulty() => {
             "graspable: nothing has to move (does not pass its check)".to_owned()
         }
-        Verdict::Graspable(_) => "graspable: nothing has to move".to_owned(),
-        Verdict::Relocate(plan) if answer.faulty() => format!("{} (does not pass its check)", relocate(plan)),
-        Verdict::Relocate(plan) => format!("{} ({})", relocate(plan), proof(plan)),
-        Verdict::Deadlock(None) => "deadlock, not proven: the method that was asked for finds no plan".to_owned(),
-        Verdict::Deadlock(Some(deadlock)) => {
-            let count = deadlock.core.len();
-            format!("deadlock: {} each other, no pick-and-place can free the target", holding(count))
+        Some(Verdict::Graspable) => "graspable: nothing has to move".to_owned(),
+        Some(Verdict::Relocate) if judged.faulty() => format!("{} (does not pass its check)", relocate(stated)),
+        Some(Verdict::Relocate) => format!("{} ({})", relocate(stated), proof(stated)),
+        Some(Verdict::Deadlock) => deadlock(stated),
+        Some(Verdict::NoSpace) => {
+            format!("no space: no place found for what has to move ({})", bound(stated.lower_bound))
         }
-        Verdict::NoSpace(known) => {
-            format!("no space: no place found for what has to move ({})", bound(known.bound.as_ref()))
+        Some(Verdict::TimedOut) if stated.lower_bound > Some(Cost::ZERO) => {
+            format!("timed out: no plan yet ({})", bound(stated.lower_bound))
         }
-        Verdict::TimedOut(known) if known.bound.as_ref().is_some_and(|bound| bound.cost > 0) => {
-            format!("timed out: no plan yet ({})", bound(known.bound.as_ref()))
-        }
-        Verdict::TimedOut(_) => "timed out: nothing is proven yet".to_owned(),
+        Some(Verdict::TimedOut) => "timed out: nothing is proven yet".to_owned(),
+        None => "no verdict".to_owned(),
     }
 }
 
-fn relocate(plan: &Plan) -> String {
-    let mut objects: Vec<ObjectIndex> = plan.relocations.iter().map(|step| step.object).collect();
+fn relocate(stated: &Statement) -> String {
+    let mut objects: Vec<&str> = stated.steps().iter().map(Step::object).collect();
     objects.sort_unstable();
     objects.dedup();
-    let moved = counted(objects.len(), "object");
-    if objects.len() == plan.cost() {
+    let (steps, moved) = (stated.steps().len(), counted(objects.len() as u64, "object"));
+    if objects.len() == steps {
         return format!("relocate {moved}");
     }
-    format!("relocate {moved} in {}", counted(plan.cost(), "move"))
+    format!("relocate {moved} in {}", counted(steps as u64, "move"))
 }
 
-fn proof(plan: &Plan) -> String {
-    match &plan.bound {
-        _ if plan.optimal() => "proven least".to_owned(),
-        Some(known) if known.cost == 0 => "not proven least".to_owned(),
-        known => bound(known.as_ref()),
+fn proof(stated: &Statement) -> String {
+    if stated.optimal == Some(true) {
+        return "proven least".to_owned();
     }
+    if stated.lower_bound == Some(Cost::ZERO) { "not proven least".to_owned() } else { bound(stated.lower_bound) }
 }
 
-fn bound(bound: Option<&LowerBound>) -> String {
-    bound.map_or_else(|| "nothing is proven".to_owned(), |bound| format!("{} needed", at_least(bound.cost)))
+fn bound(bound: Option<Cost>) -> String {
+    bound.map_or_else(|| "nothing is proven".to_owned(), |bound| format!("{} needed", at_least(bound)))
 }
 
-fn at_least(cost: usize) -> String {
-    format!("at least {} {}", counted(cost, "relocation"), if cost == 1 { "is" } else { "are" })
+fn at_least(cost: Cost) -> String {
+    format!("at least {} {}", counted(cost.get(), "relocation"), if cost == Cost::new(1) { "is" } else { "are" })
 }
 
-fn holding(count: usize) -> String {
+fn deadlock(stated: &Statement) -> String {
+    let Some(Deadlock { core, .. }) = &stated.deadlock else {
+        return "deadlock, not proven: the method that was asked for finds no plan".to_owned();
+    };
+    format!("deadlock: {} each other, no pick-and-place can free the target", holding(core.len() as u64))
+}
+
+fn holding(count: u64) -> String {
     format!("{} {}", counted(count, "object"), if count == 1 { "holds" } else { "hold" })
 }
 
-fn counted(count: usize, noun: &str) -> String {
+fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The objects, which the headline leaves out.
-fn detail(scene: &Scene, answer: &Answer) -> String {
-    let ids = |objects: &[ObjectIndex]| {
-        objects.iter().map(|&object| scene.object(object).id()).collect::<Vec<_>>().join(", ")
-    };
-    match &answer.verdict {
-        Verdict::Graspable(_) => String::new(),
-        Verdict::Relocate(plan) => {
-            let moved: Vec<ObjectIndex> = plan.relocations.iter().map(|step| step.object).collect();
-            format!("in order: {}", ids(&moved))
+fn detail(stated: &Statement) -> String {
+    match stated.verdict {
+        Some(Verdict::Relocate) => {
+            let moved: Vec<&str> = stated.steps().iter().map(Step::object).collect();
+            format!("in order: {}", moved.join(", "))
         }
-        Verdict::Deadlock(None) => String::new(),
-        Verdict::Deadlock(Some(deadlock)) => format!("holding each other: {}", ids(&deadlock.core)),
-        Verdict::NoSpace(known) | Verdict::TimedOut(known) => match &known.needed {
-            Some(needed) => format!("would have to move, in order: {}", ids(needed)),
-            None => String::new(),
-        },
+        Some(Verdict::Deadlock) => stated
+            .deadlock
+            .as_ref()
+            .map(|deadlock| format!("holding each other: {}", deadlock.core.join(", ")))
+            .unwrap_or_default(),
+        Some(Verdict::NoSpace | Verdict::TimedOut) => stated
+            .needed
+            .as_ref()
+            .map(|needed| format!("would have to move, in order: {}", needed.join(", ")))
+            .unwrap_or_default(),
+        Some(Verdict::Graspable) | None => String::new(),
     }
 }
 
 /// The codes of the answer's warnings.
-fn warned(answer: &Answer) -> String {
-    let mut codes: Vec<&str> = answer.warnings.iter().map(Warning::code).collect();
+fn warned(judged: &Judged) -> String {
+    let mut codes: Vec<&str> = judged.warnings.iter().map(Warning::code).collect();
     codes.sort_unstable();
     codes.dedup();
     if codes.is_empty() { String::new() } else { format!("warnings: {}", codes.join(", ")) }
@@ -105,7 +112,7 @@ fn scene_line(scene: &Scene) -> String {
     format!(
         "target {}; {}{fixed}; {} fingers, {} mm wide, {} mm clearance",
         scene.object(scene.target()).id(),
-        counted(scene.objects().len(), "object"),
+        counted(scene.objects().len() as u64, "object"),
         gripper.fingers(),
         millimetres(gripper.finger_width()),
         millimetres(gripper.clearance()),
@@ -117,17 +124,21 @@ fn millimetres(metres: f64) -> f64 {
 }
 
 /// The whole text, for screen readers.
-pub(super) fn description(scene: &Scene, answer: &Answer) -> String {
-    let detail = detail(scene, answer);
+pub(super) fn description(scene: &Scene, judged: &Judged) -> String {
+    let detail = detail(judged.statement());
     let stop = if detail.is_empty() { "" } else { ". " };
     format!("{detail}{stop}{}", scene_line(scene))
 }
 
 /// The lines above the table.
-pub(super) fn block(scene: &Scene, answer: &Answer, view: &View) -> Group {
+pub(super) fn block(scene: &Scene, judged: &Judged, view: &View) -> Group {
     let room = view.width() - 2.0 * PADDING;
-    let lines =
-        [(headline(answer), 20.0), (detail(scene, answer), 13.0), (warned(answer), 13.0), (scene_line(scene), 13.0)];
+    let lines = [
+        (headline(judged), 20.0),
+        (detail(judged.statement()), 13.0),
+        (warned(judged), 13.0),
+        (scene_line(scene), 13.0),
+    ];
     let mut baseline = 12.0;
     let mut group = Group::new().set("class", "headline");
     for (text, size) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {

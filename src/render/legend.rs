@@ -7,8 +7,8 @@ use super::label;
 use super::moves::badge;
 use super::paint::{self, Paint, px, ring};
 use super::view::{PADDING, View};
-use singulate_planner::plan::{Answer, Verdict};
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::{Statement, Step};
 
 /// Size of the letters, px.
 const SIZE: f64 = 12.0;
@@ -37,10 +37,10 @@ enum Sign {
 }
 
 /// The scale bar, then the symbols that occur, line by line.
-pub(super) fn legend(scene: &Scene, answer: &Answer, view: &View) -> Legend {
+pub(super) fn legend(scene: &Scene, stated: &Statement, view: &View) -> Legend {
     let mut drawing = Group::new().set("class", "legend").add(scale_bar(view));
     let (mut x, mut y) = (PADDING, view.height() + LINE);
-    for (sign, text) in signs(scene, answer) {
+    for (sign, text) in signs(scene, stated) {
         let room = 3.0 * SIGN + label::width(text, SIZE) + PADDING;
         if x > PADDING && x + room > view.width() {
             (x, y) = (PADDING, y + LINE);
@@ -53,7 +53,7 @@ pub(super) fn legend(scene: &Scene, answer: &Answer, view: &View) -> Legend {
     Legend { drawing, height: y - view.height() + LINE }
 }
 
-fn signs(scene: &Scene, answer: &Answer) -> Vec<(Sign, &'static str)> {
+fn signs(scene: &Scene, stated: &Statement) -> Vec<(Sign, &'static str)> {
     let mut signs = vec![(Sign::DoubleRing(paint::TARGET), "target")];
     if scene.objects().iter().any(singulate_planner::scene::Object::fixed) {
         signs.push((Sign::DoubleRing(paint::FIXED), "fixed object"));
@@ -61,27 +61,29 @@ fn signs(scene: &Scene, answer: &Answer) -> Vec<(Sign, &'static str)> {
     if !scene.table().keep_out().is_empty() {
         signs.push((Sign::Hatch, "nothing may be placed here"));
     }
-    match &answer.verdict {
-        Verdict::Graspable(_) => signs.push((Sign::Finger(paint::TARGET_GRASP), "fingers at the target")),
-        Verdict::Relocate(_) => signs.extend([
-            (Sign::Dashed, "old place"),
-            (Sign::Disc(paint::MOVED), "new place"),
-            (Sign::Number(paint::MOVED), "order"),
-            (Sign::Finger(paint::GRASP), "fingers picking"),
-            (Sign::Finger(paint::RELEASE), "fingers releasing"),
-            (Sign::Finger(paint::TARGET_GRASP), "fingers at the target"),
-        ]),
-        Verdict::Deadlock(Some(deadlock)) => {
-            signs.push((Sign::Disc(paint::CORE), "hold each other (a minimal set)"));
-            if deadlock.blocked.len() > deadlock.core.len() {
-                signs.push((Sign::Disc(paint::BLOCKED), "can never be moved either"));
-            }
+    for step in stated.steps().iter().take(1) {
+        match step {
+            Step::PickPlace(_) => signs.extend([
+                (Sign::Dashed, "old place"),
+                (Sign::Disc(paint::MOVED), "new place"),
+                (Sign::Number(paint::MOVED), "order"),
+                (Sign::Finger(paint::GRASP), "fingers picking"),
+                (Sign::Finger(paint::RELEASE), "fingers releasing"),
+            ]),
         }
-        Verdict::NoSpace(known) | Verdict::TimedOut(known) if known.needed.is_some() => {
-            signs.push((Sign::Disc(paint::NEEDED), "would have to move"));
-            signs.push((Sign::Number(paint::NEEDED), "order"));
+    }
+    if stated.target_grasp.is_some() {
+        signs.push((Sign::Finger(paint::TARGET_GRASP), "fingers at the target"));
+    }
+    if let Some(deadlock) = &stated.deadlock {
+        signs.push((Sign::Disc(paint::CORE), "hold each other (a minimal set)"));
+        if deadlock.blocked.len() > deadlock.core.len() {
+            signs.push((Sign::Disc(paint::BLOCKED), "can never be moved either"));
         }
-        Verdict::NoSpace(_) | Verdict::TimedOut(_) | Verdict::Deadlock(None) => {}
+    }
+    if stated.needed.is_some() {
+        signs.push((Sign::Disc(paint::NEEDED), "would have to move"));
+        signs.push((Sign::Number(paint::NEEDED), "order"));
     }
     signs
 }

@@ -2,11 +2,11 @@
 //!
 //! It loads nothing: no fonts, no style sheets, no scripts. Ids are escaped as text, never mark-up.
 
-mod discs;
 mod headline;
 mod label;
 mod legend;
 mod moves;
+mod objects;
 mod paint;
 mod roles;
 mod view;
@@ -18,22 +18,24 @@ use svg::node::element::{ClipPath, Definitions, Description, Group, Line, Patter
 
 use paint::px;
 use roles::Roles;
-use singulate_planner::plan::{Answer, Verdict};
+use singulate_planner::paper::Judged;
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::Statement;
 use view::View;
 
 /// Draw the scene with its answer: the table, the objects, and the numbered moves or the objects that lock each other.
-pub fn svg(scene: &Scene, answer: &Answer) -> String {
-    let view = View::new(scene, answer);
-    let roles = Roles::new(scene, answer);
+pub fn svg(scene: &Scene, judged: &Judged) -> String {
+    let stated = judged.statement();
+    let roles = Roles::new(scene, stated);
+    let view = View::new(scene, stated, &roles);
     let table = Group::new()
         .set("clip-path", "url(#frame)")
-        .add(discs::table(scene, &view))
-        .add(discs::standing(scene, &roles, &view))
-        .add(steps(scene, answer, &view));
-    let legend = legend::legend(scene, answer, &view);
+        .add(objects::table(scene, &view))
+        .add(objects::standing(scene, &roles, &view))
+        .add(steps(scene, stated, &roles, &view));
+    let legend = legend::legend(scene, stated, &view);
     let height = view.height() + legend.height;
-    let description = label::clean(&headline::description(scene, answer));
+    let description = label::clean(&headline::description(scene, judged));
     Document::new()
         .set("viewBox", format!("0 0 {} {}", px(view.width()), px(height)))
         .set("width", px(view.width()))
@@ -41,24 +43,26 @@ pub fn svg(scene: &Scene, answer: &Answer) -> String {
         .set("role", "img")
         .set("aria-labelledby", "title description")
         .set("font-family", "sans-serif")
-        .add(Title::new(label::clean(&headline(answer))).set("id", "title"))
+        .add(Title::new(label::clean(&headline(judged))).set("id", "title"))
         .add(Description::new().set("id", "description").add(svg::node::Text::new(description)))
         .add(definitions(&view))
         .add(Rectangle::new().set("width", px(view.width())).set("height", px(height)).set("fill", paint::PAPER))
-        .add(headline::block(scene, answer, &view))
+        .add(headline::block(scene, judged, &view))
         .add(table)
         .add(legend.drawing)
         .to_string()
 }
 
 /// The moves of a plan, the grasp of a free target, or the order of the needed objects.
-fn steps(scene: &Scene, answer: &Answer, view: &View) -> Group {
-    match &answer.verdict {
-        Verdict::Relocate(plan) => moves::plan(scene, plan, view),
-        Verdict::Graspable(grasp) => moves::target_grasp(scene, grasp, view),
-        Verdict::NoSpace(known) | Verdict::TimedOut(known) => moves::needed(scene, known, view),
-        Verdict::Deadlock(_) => Group::new(),
+fn steps(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> Group {
+    let group = Group::new();
+    if !stated.steps().is_empty() {
+        return moves::plan(scene, stated, roles, view);
     }
+    if let Some(grasp) = stated.target_grasp {
+        return moves::target_grasp(scene, grasp, view);
+    }
+    stated.needed.iter().fold(group, |_, needed| moves::needed(needed, roles, view))
 }
 
 fn definitions(view: &View) -> Definitions {

@@ -3,52 +3,72 @@
 use nalgebra::Point2;
 use svg::node::element::{Group, Line, Polygon, Title};
 
-use super::discs::{named, outline};
 use super::label;
-use super::paint::{self, Paint, circle, fingers, px, ring};
+use super::objects::{named, outline};
+use super::paint::{self, Paint, filled, fingers, px, ring};
+use super::roles::Roles;
 use super::view::View;
-use singulate_planner::plan::{Grasp, Plan, Relocation, Unplanned};
-use singulate_planner::scene::{Disc, Scene, distance};
+use singulate_planner::scene::{Footprint, Object, Pose, Scene, distance};
+use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step};
 
 /// Every relocation and the target's grasp. Arrows and numbers come last, so that no disc hides them.
-pub(super) fn plan(scene: &Scene, plan: &Plan, view: &View) -> Group {
-    let steps = || plan.relocations.iter().enumerate();
+pub(super) fn plan(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> Group {
+    let steps = || stated.steps().iter().enumerate().map(|(at, step)| (at, Move::new(at + 1, step, roles)));
     let places = steps().fold(Group::new().set("class", "relocations"), |group, (at, step)| {
-        let again = plan.relocations[at + 1..].iter().any(|later| later.object == step.object);
-        group.add(places(scene, at + 1, step, again, view))
+        let Some(step) = step else { return group };
+        let again = stated.steps()[at + 1..].iter().any(|later| later.object() == step.object.id());
+        group.add(places(scene, &step, again, view))
     });
-    let routes = steps()
-        .fold(Group::new().set("class", "routes"), |group, (at, step)| group.add(route(scene, at + 1, step, view)));
-    Group::new().add(places).add(target_grasp(scene, &plan.target_grasp, view)).add(routes)
+    let routes = steps().filter_map(|(_, step)| step);
+    let routes = routes.fold(Group::new().set("class", "routes"), |group, step| group.add(route(&step, view)));
+    let last = stated.target_grasp.map(|grasp| target_grasp(scene, grasp, view));
+    Group::new().add(places).add(last.unwrap_or_default()).add(routes)
+}
+
+/// One pick-and-place with its object.
+struct Move<'a> {
+    number: usize,
+    object: &'a Object,
+    from: Pose,
+    step: &'a PickPlace,
+}
+
+impl<'a> Move<'a> {
+    /// `None` for an object that is not in the scene.
+    fn new(number: usize, step: &'a Step, roles: &Roles<'a>) -> Option<Self> {
+        let Step::PickPlace(step) = step;
+        let object = roles.object(&step.object)?;
+        Some(Self { number, object, from: step.from.unwrap_or(object.footprint().pose), step })
+    }
 }
 
 /// The open fingers at the target.
-pub(super) fn target_grasp(scene: &Scene, grasp: &Grasp, view: &View) -> Group {
-    let disc = scene.object(scene.target()).disc();
-    fingers(disc, grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP).set("class", "fingers target-grasp")
+pub(super) fn target_grasp(scene: &Scene, grasp: StatedGrasp, view: &View) -> Group {
+    let target = scene.object(scene.target()).footprint();
+    fingers(&target, grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP).set("class", "fingers target-grasp")
 }
 
 /// The order of relocations in the best known derivation.
-pub(super) fn needed(scene: &Scene, known: &Unplanned, view: &View) -> Group {
-    known.needed.iter().flatten().enumerate().fold(Group::new(), |group, (at, &object)| {
-        let disc = scene.object(object).disc();
-        let radius = view.length(disc.radius);
-        let corner = view.point(disc.centre) + nalgebra::Vector2::new(-0.7 * radius, -0.7 * radius);
-        group.add(badge(at + 1, corner, paint::NEEDED, badge_radius(&disc, view)))
+pub(super) fn needed(ids: &[String], roles: &Roles<'_>, view: &View) -> Group {
+    let objects = ids.iter().enumerate().filter_map(|(at, id)| Some((at + 1, roles.object(id)?)));
+    objects.fold(Group::new(), |group, (number, object)| {
+        let footprint = object.footprint();
+        let radius = view.length(footprint.circumradius());
+        let corner = view.point(footprint.at()) + nalgebra::Vector2::new(-0.7 * radius, -0.7 * radius);
+        group.add(badge(number, corner, paint::NEEDED, badge_radius(&footprint, view)))
     })
 }
 
 /// One relocation: ghost and grasp at the old place, disc and release at the new one. A new place is dashed too if the
 /// object leaves it again.
-fn places(scene: &Scene, number: usize, step: &Relocation, again: bool, view: &View) -> Group {
-    let object = scene.object(step.object);
-    let (old, new) = (object.disc().at(step.from), object.disc().at(step.to));
+fn places(scene: &Scene, Move { number, object, from, step }: &Move<'_>, again: bool, view: &View) -> Group {
+    let (old, new) = (object.footprint().moved_to(*from), object.footprint().moved_to(step.to));
     let stroke = outline(&old, view);
-    let ghost = circle(old, view, Paint { fill: paint::PAPER, line: paint::FAINT_INK })
+    let ghost = filled(&old, view, Paint { fill: paint::PAPER, line: paint::FAINT_INK })
         .set("fill-opacity", "0.7")
         .set("stroke-width", px(stroke))
         .set("stroke-dasharray", "5 3");
-    let mut place = circle(new, view, paint::MOVED).set("stroke-width", px(1.5 * stroke));
+    let mut place = filled(&new, view, paint::MOVED).set("stroke-width", px(1.5 * stroke));
     if again {
         place = place.set("fill-opacity", "0.4").set("stroke-dasharray", "5 3");
     }
@@ -56,19 +76,19 @@ fn places(scene: &Scene, number: usize, step: &Relocation, again: bool, view: &V
         .set("class", "relocation")
         .add(Title::new(label::clean(&format!("{number}: {}", object.id()))))
         .add(ghost)
-        .add(fingers(old, step.grasp.yaw, scene.gripper(), view, paint::GRASP))
+        .add(fingers(&old, step.grasp.yaw, scene.gripper(), view, paint::GRASP))
         .add(place)
-        .add(fingers(new, step.release.yaw, scene.gripper(), view, paint::RELEASE));
+        .add(fingers(&new, step.release.yaw, scene.gripper(), view, paint::RELEASE));
     let group = named(group, object.id(), &old, Paint { fill: paint::PAPER, line: paint::FAINT_INK }, view);
     named(group, object.id(), &new, paint::MOVED, view)
 }
 
 /// The arrow, and the step's number at both ends.
-fn route(scene: &Scene, number: usize, step: &Relocation, view: &View) -> Group {
-    let disc = scene.object(step.object).disc();
-    let radius = view.length(disc.radius);
-    let (from, to) = (view.point(step.from), view.point(step.to));
-    let size = badge_radius(&disc, view);
+fn route(Move { number, object, from, step }: &Move<'_>, view: &View) -> Group {
+    let (number, footprint) = (*number, object.footprint());
+    let radius = view.length(footprint.circumradius());
+    let (from, to) = (view.point(from.at), view.point(step.to.at));
+    let size = badge_radius(&footprint, view);
     let badge = badge(number, to + nalgebra::Vector2::new(-0.75 * radius, -0.75 * radius), paint::MOVED, size);
     let group = Group::new().set("class", "route");
     let length = distance(from, to);
@@ -113,7 +133,7 @@ pub(super) fn badge(number: usize, at: Point2<f64>, paint: Paint, radius: f64) -
         .add(label::centred(&text, size, at).set("fill", paint::PAPER).set("font-weight", "bold"))
 }
 
-/// Large enough to be read on small discs too.
-fn badge_radius(disc: &Disc, view: &View) -> f64 {
-    (0.3 * view.length(disc.radius)).clamp(8.0, 14.0)
+/// Large enough to be read on small objects too.
+fn badge_radius(footprint: &Footprint, view: &View) -> f64 {
+    (0.3 * view.length(footprint.circumradius())).clamp(8.0, 14.0)
 }

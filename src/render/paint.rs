@@ -6,7 +6,7 @@ use nalgebra::Point2;
 use svg::node::element::{Circle, Group, Polygon};
 
 use super::view::View;
-use singulate_planner::scene::{Disc, Gripper};
+use singulate_planner::scene::{Footprint, Gripper, Shape};
 
 pub(super) const PAPER: &str = "#ffffff";
 pub(super) const INK: &str = "#202124";
@@ -44,10 +44,16 @@ pub(super) fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A disc.
-pub(super) fn circle(disc: Disc, view: &View, paint: Paint) -> Circle {
-    let centre = view.point(disc.centre);
-    ring(centre, view.length(disc.radius), paint.line).set("fill", paint.fill)
+/// A filled footprint.
+pub(super) fn filled(footprint: &Footprint, view: &View, paint: Paint) -> Circle {
+    contour(footprint, 1.0, view, paint.line).set("fill", paint.fill)
+}
+
+/// The outline of a footprint at `share` of its size.
+pub(super) fn contour(footprint: &Footprint, share: f64, view: &View, line: &str) -> Circle {
+    match footprint.shape {
+        Shape::Disc { radius } => ring(view.point(footprint.at()), view.length(radius) * share, line),
+    }
 }
 
 /// An outline without a fill, px.
@@ -65,9 +71,10 @@ pub(super) fn points(corners: impl IntoIterator<Item = Point2<f64>>) -> String {
     corners.into_iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
 }
 
-/// The k open fingers round `disc` at `yaw`: rectangles [r, r + c] × [−w/2, w/2], turned. Finger 0 has a dot.
-pub(super) fn fingers(disc: Disc, yaw: f64, gripper: &Gripper, view: &View, paint: Paint) -> Group {
-    let (inner, outer) = (disc.radius, disc.radius + gripper.clearance());
+/// The k open fingers round `grasped` at `yaw`: rectangles [r, r + c] × [−w/2, w/2], turned. Finger 0 has a dot.
+pub(super) fn fingers(grasped: &Footprint, yaw: f64, gripper: &Gripper, view: &View, paint: Paint) -> Group {
+    let (Shape::Disc { radius: inner }, centre) = (grasped.shape, grasped.at());
+    let outer = inner + gripper.clearance();
     let half = gripper.finger_width() / 2.0;
     let mut group = Group::new()
         .set("class", "fingers")
@@ -80,7 +87,7 @@ pub(super) fn fingers(disc: Disc, yaw: f64, gripper: &Gripper, view: &View, pain
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
         let at = |along: f64, across: f64| {
             let (x, y) = (along * cos - across * sin, along * sin + across * cos);
-            view.point(Point2::new(disc.centre.x + x, disc.centre.y + y))
+            view.point(Point2::new(centre.x + x, centre.y + y))
         };
         let corners = [at(inner, -half), at(outer, -half), at(outer, half), at(inner, half)];
         group = group.add(Polygon::new().set("points", points(corners)));

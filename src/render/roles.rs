@@ -1,7 +1,9 @@
 //! The role of each object in the answer.
 
-use singulate_planner::plan::{Answer, Verdict};
-use singulate_planner::scene::{ObjectIndex, Scene};
+use std::collections::HashMap;
+
+use singulate_planner::scene::{Object, ObjectIndex, Scene};
+use singulate_planner::statement::{Statement, Step};
 
 /// An object's role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,34 +20,41 @@ pub(super) enum Role {
     Blocked,
 }
 
-/// Every object's role.
+/// Every object's role, and the objects by their ids: a lock may name thousands.
 #[derive(Debug)]
-pub(super) struct Roles(Vec<Role>);
+pub(super) struct Roles<'a> {
+    scene: &'a Scene,
+    by_id: HashMap<&'a str, ObjectIndex>,
+    roles: Vec<Role>,
+}
 
-impl Roles {
-    pub(super) fn new(scene: &Scene, answer: &Answer) -> Self {
-        let mut roles = Self(vec![Role::Bystander; scene.objects().len()]);
-        match &answer.verdict {
-            Verdict::Relocate(plan) => roles.give(Role::Moved, plan.relocations.iter().map(|step| step.object)),
-            Verdict::Deadlock(Some(deadlock)) => {
-                roles.give(Role::Blocked, deadlock.blocked.iter().copied());
-                roles.give(Role::Core, deadlock.core.iter().copied());
-            }
-            Verdict::NoSpace(known) | Verdict::TimedOut(known) => {
-                roles.give(Role::Needed, known.needed.iter().flatten().copied());
-            }
-            Verdict::Graspable(_) | Verdict::Deadlock(None) => {}
+impl<'a> Roles<'a> {
+    pub(super) fn new(scene: &'a Scene, stated: &Statement) -> Self {
+        let by_id = scene.indices().map(|object| (scene.object(object).id(), object)).collect();
+        let mut roles = Self { scene, by_id, roles: vec![Role::Bystander; scene.objects().len()] };
+        roles.give(Role::Moved, stated.steps().iter().map(Step::object));
+        if let Some(deadlock) = &stated.deadlock {
+            roles.give(Role::Blocked, deadlock.blocked.iter().map(String::as_str));
+            roles.give(Role::Core, deadlock.core.iter().map(String::as_str));
         }
+        roles.give(Role::Needed, stated.needed.iter().flatten().map(String::as_str));
         roles
     }
 
-    fn give(&mut self, role: Role, objects: impl Iterator<Item = ObjectIndex>) {
-        for object in objects {
-            self.0[object.get()] = role;
+    fn give<'s>(&mut self, role: Role, ids: impl Iterator<Item = &'s str>) {
+        for id in ids {
+            if let Some(object) = self.by_id.get(id) {
+                self.roles[object.get()] = role;
+            }
         }
     }
 
     pub(super) fn of(&self, object: ObjectIndex) -> Role {
-        self.0[object.get()]
+        self.roles[object.get()]
+    }
+
+    /// The object with this id.
+    pub(super) fn object(&self, id: &str) -> Option<&'a Object> {
+        self.by_id.get(id).map(|&object| self.scene.object(object))
     }
 }

@@ -5,11 +5,14 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::*;
-use singulate_planner::plan::check::{Fault, FaultCode};
-use singulate_planner::plan::{Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Warning};
+use singulate_planner::check::{Fault, FaultCode};
+use singulate_planner::cost::Cost;
+use singulate_planner::paper::Warning;
+use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::scene::{
-    GripperDraft, ObjectDraft, ObjectIndex, RectangleDraft, SceneDraft, SceneLimits, TableDraft, distance,
+    GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, SceneLimits, ShapeDraft, TableDraft, distance,
 };
+use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Step, Verdict};
 
 fn rectangle(x_min: f64, y_min: f64, x_max: f64, y_max: f64) -> RectangleDraft {
     RectangleDraft { x_min: Some(x_min), y_min: Some(y_min), x_max: Some(x_max), y_max: Some(y_max) }
@@ -21,7 +24,7 @@ fn scene(ids: &[&str]) -> Scene {
         id: Some((*id).to_owned()),
         x: Some(0.2 + 0.2 * (at % 100) as f64),
         y: Some(0.2 + 0.2 * (at / 100) as f64),
-        radius: Some(0.08),
+        shape: ShapeDraft::disc(0.08),
         fixed: at > 0 && at + 1 == ids.len(),
     };
     let gripper = GripperDraft {
@@ -40,23 +43,49 @@ fn scene(ids: &[&str]) -> Scene {
     Scene::new(draft, &SceneLimits::default()).unwrap().0
 }
 
-fn answer(verdict: Verdict) -> Answer {
-    Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() }
+fn answer(statement: Statement) -> Judged {
+    Answer { statement, statistics: Statistics::default() }.into()
 }
 
-fn objects(positions: &[usize]) -> Vec<ObjectIndex> {
-    positions.iter().copied().map(ObjectIndex::new).collect()
+fn ids(scene: &Scene, positions: &[usize]) -> Vec<String> {
+    positions.iter().map(|&at| scene.objects()[at].id().to_owned()).collect()
 }
 
-fn relocate(scene: &Scene, moved: &[usize]) -> Answer {
-    let grasp = Grasp { yaw: 0.5, slack: 0.1 };
-    let relocation = |object: ObjectIndex| {
-        let from = scene.object(object).disc().centre;
-        Relocation { object, from, to: Point2::new(from.x, 1.0), grasp, release: grasp, gap: 0.01 }
+fn graspable(slack: f64) -> Judged {
+    let target_grasp = Some(StatedGrasp { yaw: 0.0, slack: Some(slack) });
+    answer(Statement { verdict: Some(Verdict::Graspable), target_grasp, ..Statement::timed_out() })
+}
+
+fn locked(scene: &Scene, blocked: &[usize], core: &[usize]) -> Judged {
+    let deadlock = Some(Deadlock { blocked: ids(scene, blocked), core: ids(scene, core) });
+    answer(Statement { verdict: Some(Verdict::Deadlock), deadlock, ..Statement::default() })
+}
+
+fn relocate(scene: &Scene, moved: &[usize]) -> Judged {
+    let grasp = StatedGrasp { yaw: 0.5, slack: Some(0.1) };
+    let step = |object: &usize| {
+        let object = &scene.objects()[*object];
+        let from = object.footprint().at();
+        Step::PickPlace(PickPlace {
+            object: object.id().to_owned(),
+            from: Some(from.into()),
+            to: Point2::new(from.x, 1.0).into(),
+            grasp,
+            release: grasp,
+            gap: Some(0.01),
+        })
     };
-    let relocations = objects(moved).into_iter().map(relocation).collect();
-    let bound = LowerBound { cost: moved.len(), landmarks: Vec::new() };
-    answer(Verdict::Relocate(Plan { relocations, target_grasp: grasp, bound: Some(bound) }))
+    let cost = Some(Cost::of_each(moved.len()));
+    answer(Statement {
+        verdict: Some(Verdict::Relocate),
+        relocations: Some(moved.iter().map(step).collect()),
+        target_grasp: Some(grasp),
+        cost,
+        lower_bound: cost,
+        optimal: Some(true),
+        landmarks: Some(Vec::new()),
+        ..Statement::default()
+    })
 }
 
 /// Panics if the text is not well-formed XML: tags nest, attributes are quoted, `<` and `&` are escaped.
@@ -95,8 +124,8 @@ fn characters(text: &str) {
 fn an_answer_that_does_not_pass_its_check_says_so() {
     let fault =
         Fault { code: FaultCode::TargetBlocked, step: None, object: Some("o0".into()), detail: "a finger".into() };
-    let graspable = answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: 0.1 }));
-    let drawing = svg(&scene(&["o0"]), &Answer { warnings: vec![Warning::Faulty(fault)], ..graspable });
+    let faulty = Judged { warnings: vec![Warning::Faulty(fault)], ..graspable(0.1) };
+    let drawing = svg(&scene(&["o0"]), &faulty);
     assert!(drawing.contains("does not pass its check") && drawing.contains("warnings: target_blocked"));
 }
 
@@ -105,10 +134,14 @@ fn an_id_is_text_and_never_mark_up() {
     let scene = scene(&[r#"<a&"b>"#, "]]>", "<script>", "bell\u{7}\u{0}\u{ffff}", "o'5"]);
     for answer in [
         relocate(&scene, &[1, 2, 3]),
-        answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: PI / 3.0 })),
-        answer(Verdict::Deadlock(Some(Deadlock { blocked: objects(&[0, 1, 2, 4]), core: objects(&[0, 2]) }))),
-        answer(Verdict::NoSpace(Unplanned { needed: Some(objects(&[3, 1])), ..Unplanned::default() })),
-        answer(Verdict::TimedOut(Unplanned::default())),
+        graspable(PI / 3.0),
+        locked(&scene, &[0, 1, 2, 4], &[0, 2]),
+        answer(Statement {
+            verdict: Some(Verdict::NoSpace),
+            needed: Some(ids(&scene, &[3, 1])),
+            ..Statement::timed_out()
+        }),
+        answer(Statement::timed_out()),
     ] {
         let drawing = svg(&scene, &answer);
         parse(&drawing);
@@ -130,8 +163,7 @@ fn every_relocation_is_one_group_with_a_ghost_and_fingers_at_both_places() {
 #[test]
 fn the_core_of_a_deadlock_is_red_and_the_rest_of_it_pale() {
     let scene = scene(&["t", "a", "b", "c", "d"]);
-    let deadlock = Deadlock { blocked: objects(&[0, 1, 2]), core: objects(&[0, 2]) };
-    let drawing = svg(&scene, &answer(Verdict::Deadlock(Some(deadlock))));
+    let drawing = svg(&scene, &locked(&scene, &[0, 1, 2], &[0, 2]));
     // One more for the legend.
     assert_eq!(drawing.matches(paint::CORE.fill).count(), 3);
     assert_eq!(drawing.matches(paint::BLOCKED.fill).count(), 2);
@@ -149,7 +181,7 @@ fn the_same_answer_gives_the_same_bytes() {
 fn ids_are_left_out_where_they_could_not_be_read() {
     let ids: Vec<String> = (0..10_000).map(|n| format!("o{n}")).collect();
     let ids: Vec<&str> = ids.iter().map(String::as_str).collect();
-    let large = svg(&scene(&ids), &answer(Verdict::TimedOut(Unplanned::default())));
+    let large = svg(&scene(&ids), &answer(Statement::timed_out()));
     assert!(large.len() < 4_000_000, "{} bytes", large.len());
     assert!(large.matches("<text").count() < 20);
 }
@@ -157,8 +189,9 @@ fn ids_are_left_out_where_they_could_not_be_read() {
 #[test]
 fn the_fingers_are_where_the_gripper_puts_them() {
     let scene = scene(&["t", "a"]);
-    let answer = answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: 0.1 }));
-    let view = View::new(&scene, &answer);
+    let answer = graspable(0.1);
+    let stated = &answer.answer.statement;
+    let view = View::new(&scene, stated, &Roles::new(&scene, stated));
     let drawing = svg(&scene, &answer);
     // Finger 0 points along +x: from r to r + c, half a width to both sides.
     let corners = [(0.28, 0.19), (0.33, 0.19), (0.33, 0.21), (0.28, 0.21)].map(|(x, y)| view.point(Point2::new(x, y)));
@@ -185,13 +218,13 @@ fn a_tiny_or_a_lopsided_table_gives_finite_numbers() {
                 id: Some("t".to_owned()),
                 x: Some(0.0),
                 y: Some(0.0),
-                radius: Some(1e3),
+                shape: ShapeDraft::disc(1e3),
                 fixed: false,
             }],
             target: Some("t".to_owned()),
         };
         let scene = Scene::new(draft, &SceneLimits::default()).unwrap().0;
-        let drawing = svg(&scene, &answer(Verdict::Graspable(Grasp { yaw: 0.0, slack: 0.1 })));
+        let drawing = svg(&scene, &graspable(0.1));
         parse(&drawing);
         assert!(!drawing.contains("NaN") && !drawing.contains("inf"));
     }

@@ -1,9 +1,10 @@
 //! From metres on the table to pixels of the drawing.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 
-use singulate_planner::plan::{Answer, Verdict};
-use singulate_planner::scene::{Disc, Scene};
+use super::roles::Roles;
+use singulate_planner::scene::{Footprint, Object, Scene};
+use singulate_planner::statement::Statement;
 
 /// Padding on all sides, px.
 pub(super) const PADDING: f64 = 24.0;
@@ -31,13 +32,12 @@ pub(super) struct View {
 
 impl View {
     /// The table to scale, with objects that hang over its edge.
-    pub(super) fn new(scene: &Scene, answer: &Answer) -> Self {
+    pub(super) fn new(scene: &Scene, stated: &Statement, roles: &Roles<'_>) -> Self {
         let top = scene.table().top();
         let (mut min, mut max) = (top.min(), top.max());
         let allowance = OVERHANG * (max.x - min.x).max(max.y - min.y);
-        for Disc { centre, radius } in drawn(scene, answer) {
-            min = Point2::new(min.x.min(centre.x - radius), min.y.min(centre.y - radius));
-            max = Point2::new(max.x.max(centre.x + radius), max.y.max(centre.y + radius));
+        for [left_below, right_above] in drawn(scene, stated, roles) {
+            (min, max) = (min.inf(&left_below), max.sup(&right_above));
         }
         let (left, right) = (min.x.max(top.min().x - allowance), max.x.min(top.max().x + allowance));
         let (below, above) = (min.y.max(top.min().y - allowance), max.y.min(top.max().y + allowance));
@@ -80,18 +80,20 @@ impl View {
     }
 }
 
-/// Every disc that must be visible: objects, and the reach of every drawn grasp.
-fn drawn<'a>(scene: &'a Scene, answer: &'a Answer) -> impl Iterator<Item = Disc> + 'a {
-    let reach = |disc: Disc| Disc { radius: scene.gripper().corner_distance(disc.radius), ..disc };
-    let relocations = match &answer.verdict {
-        Verdict::Relocate(plan) => plan.relocations.as_slice(),
-        _ => &[],
+/// The bounding boxes of all that must be visible: objects, and the reach of every drawn grasp.
+fn drawn<'a>(
+    scene: &'a Scene,
+    stated: &'a Statement,
+    roles: &'a Roles<'a>,
+) -> impl Iterator<Item = [Point2<f64>; 2]> + 'a {
+    let reach = |footprint: Footprint| {
+        let corner = Vector2::repeat(scene.gripper().corner_distance(&footprint));
+        [footprint.at() - corner, footprint.at() + corner]
     };
-    let moved = relocations.iter().flat_map(move |step| {
-        let disc = scene.object(step.object).disc();
-        [reach(disc.at(step.from)), reach(disc.at(step.to))]
+    let moved = stated.steps().iter().flat_map(move |step| {
+        let object = roles.object(step.object()).map(Object::footprint);
+        object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object.moved_to(pose))))
     });
-    let grasped = matches!(answer.verdict, Verdict::Relocate(_) | Verdict::Graspable(_));
-    let target = grasped.then(|| reach(scene.object(scene.target()).disc()));
-    scene.objects().iter().map(singulate_planner::scene::Object::disc).chain(moved).chain(target)
+    let target = stated.target_grasp.map(|_| reach(scene.object(scene.target()).footprint()));
+    scene.objects().iter().map(|object| object.footprint().bounds()).chain(moved).chain(target)
 }

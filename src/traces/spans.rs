@@ -86,7 +86,7 @@ impl PlanSpan {
         if !span.is_recording() {
             return;
         }
-        span.set_attribute(KeyValue::new("singulate.verdict", answer.verdict.as_str()));
+        span.set_attribute(KeyValue::new("singulate.verdict", answer.statement.verdict_name()));
         let mut start = self.began;
         for (phase, took) in answer.statistics.phases() {
             let builder = SpanBuilder::from_name(phase).with_start_time(start);

@@ -1,9 +1,7 @@
-//! An answer as JSON.
+//! An answer as JSON: a view of the statement that was checked.
 
-use core::fmt;
 use core::time::Duration;
 
-use nalgebra::Point2;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -11,50 +9,54 @@ use super::finding;
 use super::glance::Glance;
 use super::plan_request::PlanRequest;
 use super::problem::WarningItem;
-use singulate_planner::plan::{Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict};
-use singulate_planner::scene::{ObjectIndex, Scene};
+use super::step::{GraspBody, RelocationBody};
+use singulate_planner::cost::Cost;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::{Answer, Statistics};
+use singulate_planner::statement::{Deadlock, Verdict};
 
 /// The answer to a planning request. A client must refuse a verdict that it doesn't know.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
-pub struct AnswerBody {
+pub struct AnswerBody<'a> {
     /// What was found.
-    pub verdict: VerdictWord,
+    #[schema(value_type = VerdictWord, required = true)]
+    pub verdict: Option<VerdictWord>,
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
-    pub scene_id: Option<String>,
+    pub scene_id: Option<&'a str>,
     /// The id of the object that is wanted.
     #[schema(example = "plate-1")]
-    pub target: String,
+    pub target: &'a str,
     /// The plan, in order of execution; empty where there is none or none is needed.
     #[schema(example = json!([{
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
-    pub relocations: Vec<RelocationBody>,
+    pub relocations: Vec<RelocationBody<'a>>,
     /// How the target is grasped in the end; null where there is no plan.
     #[schema(required = true)]
     pub target_grasp: Option<GraspBody>,
     /// The count of relocations; null where there is no plan.
-    #[schema(required = true, example = 1)]
-    pub cost: Option<usize>,
+    #[schema(value_type = Option<usize>, required = true, example = 1)]
+    pub cost: Option<u64>,
     /// No plan has fewer relocations, proven; null for a deadlock, and where one of the paper's methods was asked for and
     /// nothing is proven.
-    #[schema(required = true, example = 1)]
-    pub lower_bound: Option<usize>,
+    #[schema(value_type = Option<usize>, required = true, example = 1)]
+    pub lower_bound: Option<u64>,
     /// True if no plan has fewer relocations than this one; null where there is no plan that passes its check, or nothing
     /// is proven.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
     /// The proof of the bound: of each set of ids every plan moves at least one. Null where `lower_bound` is.
     #[schema(required = true, example = json!([["plate-2", "plate-5"]]))]
-    pub landmarks: Option<Vec<Vec<String>>>,
+    pub landmarks: Option<&'a [Vec<String>]>,
     /// Why nothing frees the target; null for any other verdict, and for an unproven deadlock of the paper's methods.
     #[schema(required = true)]
-    pub deadlock: Option<DeadlockBody>,
+    pub deadlock: Option<DeadlockBody<'a>>,
     /// For `no_space` and `timed_out` the ids of the best known derivation, in order; null otherwise or where none is
     /// known.
     #[schema(required = true, example = json!(["plate-2"]))]
-    pub needed: Option<Vec<String>>,
+    pub needed: Option<&'a [String]>,
     /// What is worth knowing about the scene; for the paper's methods also what our own have against the answer.
     #[schema(example = json!([{
         "code": "overlap",
@@ -84,74 +86,15 @@ pub enum VerdictWord {
     TimedOut,
 }
 
-impl fmt::Display for VerdictWord {
-    /// Its name in JSON.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(f)
-    }
-}
-
-/// One step of a plan. A client must refuse an action that it doesn't know.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
-pub struct RelocationBody {
-    /// The kind of step.
-    pub action: ActionWord,
-    /// The id of the object that is moved.
-    #[schema(example = "plate-2")]
-    pub object: String,
-    /// Its centre before.
-    pub from: PointBody,
-    /// Its centre after.
-    pub to: PointBody,
-    /// How it is picked.
-    pub grasp: GraspBody,
-    /// How it is let go.
-    pub release: GraspBody,
-    /// Least distance to another object at the new place, edge to edge, m.
-    #[schema(example = 0.031)]
-    pub gap: f64,
-}
-
-/// The kind of step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(example = "pick_place")]
-pub enum ActionWord {
-    /// Pick an object up and place it elsewhere.
-    PickPlace,
-}
-
-/// A point on the table.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
-pub struct PointBody {
-    /// Along the table's x, m.
-    #[schema(example = 0.4)]
-    pub x: f64,
-    /// Along the table's y, m.
-    #[schema(example = 0.2)]
-    pub y: f64,
-}
-
-/// A yaw of the gripper that is free, with the room round it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
-pub struct GraspBody {
-    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
-    #[schema(example = 0.31)]
-    pub yaw: f64,
-    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
-    #[schema(example = 0.12)]
-    pub slack: f64,
-}
-
 /// Objects that hold each other: at every yaw of every movable one some other of them blocks.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
-pub struct DeadlockBody {
+pub struct DeadlockBody<'a> {
     /// The ids of the greatest lock, the target among them; fixed objects where they block a member.
     #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
-    pub blocked: Vec<String>,
+    pub blocked: &'a [String],
     /// The ids of a least lock within it: take any one away, and the rest is no lock.
     #[schema(example = json!(["plate-1", "vase"]))]
-    pub core: Vec<String>,
+    pub core: &'a [String],
 }
 
 /// How long each phase took.
@@ -171,113 +114,70 @@ pub struct StatisticsBody {
     pub check_ms: f64,
 }
 
-impl AnswerBody {
-    /// The answer to a request.
-    pub fn new(request: &PlanRequest, answer: &Answer) -> Self {
+impl<'a> AnswerBody<'a> {
+    /// The answer to a request: a view of the statement that the checker confirmed.
+    pub fn new(request: &'a PlanRequest, judged: &'a Judged) -> Self {
+        let Judged { answer: Answer { statement, statistics }, .. } = judged;
         let scene = &request.scene;
-        let blank = Self {
-            warnings: warnings(request, answer),
-            statistics: StatisticsBody::new(&answer.statistics),
-            ..Self::blank(request.scene_id.clone(), id(scene, scene.target()))
-        };
-        match &answer.verdict {
-            Verdict::Graspable(grasp) => blank.graspable(*grasp, answer.optimal()),
-            Verdict::Relocate(plan) => blank.relocate(scene, plan, answer.optimal()),
-            Verdict::Deadlock(deadlock) => blank.deadlock(scene, deadlock.as_ref()),
-            Verdict::NoSpace(unplanned) => blank.unplanned(VerdictWord::NoSpace, scene, unplanned),
-            Verdict::TimedOut(unplanned) => blank.unplanned(VerdictWord::TimedOut, scene, unplanned),
+        Self {
+            verdict: statement.verdict.map(VerdictWord::from),
+            scene_id: request.scene_id.as_deref(),
+            target: scene.object(scene.target()).id(),
+            relocations: statement.steps().iter().map(RelocationBody::new).collect(),
+            target_grasp: statement.target_grasp.map(GraspBody::from),
+            cost: statement.cost.map(Cost::get),
+            lower_bound: statement.lower_bound.map(Cost::get),
+            optimal: statement.optimal,
+            landmarks: statement.landmarks.as_deref(),
+            deadlock: statement.deadlock.as_ref().map(DeadlockBody::new),
+            needed: statement.needed.as_deref(),
+            warnings: warnings(request, judged),
+            statistics: StatisticsBody::new(statistics),
         }
     }
 
     /// The answer to a request that was too large to be read in its time: `timed_out`. `None` if even the target is
     /// unknown.
-    pub fn unread(glance: &Glance) -> Option<Self> {
-        let blank = Self::blank(glance.scene_id.clone(), glance.target.clone()?);
-        let blank = Self { verdict: VerdictWord::TimedOut, ..blank };
-        Some(Self { lower_bound: Some(0), landmarks: Some(Vec::new()), ..blank })
-    }
-
-    fn blank(scene_id: Option<String>, target: String) -> Self {
-        Self {
-            verdict: VerdictWord::Graspable,
-            scene_id,
-            target,
+    pub fn unread(glance: &'a Glance) -> Option<Self> {
+        Some(Self {
+            verdict: Some(VerdictWord::TimedOut),
+            scene_id: glance.scene_id.as_deref(),
+            target: glance.target.as_deref()?,
             relocations: Vec::new(),
             target_grasp: None,
             cost: None,
-            lower_bound: None,
+            lower_bound: Some(0),
             optimal: None,
-            landmarks: None,
+            landmarks: Some(&[]),
             deadlock: None,
             needed: None,
             warnings: Vec::new(),
             statistics: StatisticsBody::new(&Statistics::default()),
-        }
-    }
-
-    fn graspable(self, grasp: Grasp, optimal: Option<bool>) -> Self {
-        let target_grasp = Some(GraspBody::new(grasp));
-        Self { cost: Some(0), lower_bound: Some(0), landmarks: Some(Vec::new()), optimal, target_grasp, ..self }
-    }
-
-    fn relocate(self, scene: &Scene, plan: &Plan, optimal: Option<bool>) -> Self {
-        Self {
-            verdict: VerdictWord::Relocate,
-            relocations: plan.relocations.iter().map(|step| RelocationBody::new(scene, step)).collect(),
-            target_grasp: Some(GraspBody::new(plan.target_grasp)),
-            cost: Some(plan.cost()),
-            optimal,
-            ..self
-        }
-        .bounded(scene, plan.bound.as_ref())
-    }
-
-    fn deadlock(self, scene: &Scene, proof: Option<&Deadlock>) -> Self {
-        let deadlock =
-            proof.map(|proof| DeadlockBody { blocked: ids(scene, &proof.blocked), core: ids(scene, &proof.core) });
-        Self { verdict: VerdictWord::Deadlock, deadlock, ..self }
-    }
-
-    fn unplanned(self, verdict: VerdictWord, scene: &Scene, unplanned: &Unplanned) -> Self {
-        let needed = unplanned.needed.as_ref().map(|needed| ids(scene, needed));
-        Self { verdict, needed, ..self }.bounded(scene, unplanned.bound.as_ref())
-    }
-
-    fn bounded(self, scene: &Scene, bound: Option<&LowerBound>) -> Self {
-        let landmarks = bound.map(|bound| bound.landmarks.iter().map(|set| ids(scene, set)).collect());
-        Self { lower_bound: bound.map(|bound| bound.cost), landmarks, ..self }
+        })
     }
 }
 
 /// Warnings about the scene, then about the answer. Pointers refer to the request.
-pub fn warnings(request: &PlanRequest, answer: &Answer) -> Vec<WarningItem> {
-    let of_answer = answer.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
+pub fn warnings(request: &PlanRequest, judged: &Judged) -> Vec<WarningItem> {
+    let of_answer = judged.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
     request.warnings.iter().cloned().chain(of_answer).collect()
 }
 
-impl RelocationBody {
-    fn new(scene: &Scene, step: &Relocation) -> Self {
-        Self {
-            action: ActionWord::PickPlace,
-            object: id(scene, step.object),
-            from: PointBody::new(step.from),
-            to: PointBody::new(step.to),
-            grasp: GraspBody::new(step.grasp),
-            release: GraspBody::new(step.release),
-            gap: step.gap,
+impl From<Verdict> for VerdictWord {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Graspable => Self::Graspable,
+            Verdict::Relocate => Self::Relocate,
+            Verdict::Deadlock => Self::Deadlock,
+            Verdict::NoSpace => Self::NoSpace,
+            Verdict::TimedOut => Self::TimedOut,
         }
     }
 }
 
-impl PointBody {
-    fn new(point: Point2<f64>) -> Self {
-        Self { x: point.x, y: point.y }
-    }
-}
-
-impl GraspBody {
-    fn new(grasp: Grasp) -> Self {
-        Self { yaw: grasp.yaw, slack: grasp.slack }
+impl<'a> DeadlockBody<'a> {
+    fn new(Deadlock { blocked, core }: &'a Deadlock) -> Self {
+        Self { blocked, core }
     }
 }
 
@@ -292,12 +192,4 @@ impl StatisticsBody {
             check_ms: ms(statistics.check),
         }
     }
-}
-
-fn id(scene: &Scene, object: ObjectIndex) -> String {
-    scene.object(object).id().to_owned()
-}
-
-fn ids(scene: &Scene, objects: &[ObjectIndex]) -> Vec<String> {
-    objects.iter().map(|object| id(scene, *object)).collect()
 }

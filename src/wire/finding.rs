@@ -4,7 +4,7 @@ use super::code::ErrorCode;
 use super::path::Path;
 use super::problem::WarningItem;
 use super::reader::Faults;
-use singulate_planner::plan::{Cause, Warning};
+use singulate_planner::paper::{Cause, Warning};
 use singulate_planner::scene::{Finding, Flaw, Place, Scene};
 
 /// A finding as a warning; `scene` is the scene's path in the body.

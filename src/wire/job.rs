@@ -10,8 +10,10 @@ use serde_json::{Value, json};
 use utoipa::ToSchema;
 
 use super::answer::AnswerBody;
+use super::object::ObjectBody;
 use super::problem::Problem;
-use super::scene::{GripperBody, ObjectBody, SettingsBody, TableBody};
+use super::scene::{GripperBody, SettingsBody, TableBody};
+use singulate_planner::search::Incumbent;
 
 /// A scene to be planned for later: the body of a planning request and two fields more.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -80,11 +82,17 @@ pub enum JobStateWord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 pub struct IncumbentBody {
     /// The relocations of the best set known.
-    #[schema(example = 3)]
-    pub cost: usize,
+    #[schema(value_type = usize, example = 3)]
+    pub cost: u64,
     /// No plan has fewer.
-    #[schema(example = 2)]
-    pub lower_bound: usize,
+    #[schema(value_type = usize, example = 2)]
+    pub lower_bound: u64,
+}
+
+impl From<Incumbent> for IncumbentBody {
+    fn from(Incumbent { cost, lower_bound }: Incumbent) -> Self {
+        Self { cost: cost.get(), lower_bound: lower_bound.get() }
+    }
 }
 
 /// A job. Times are RFC 3339 in UTC.

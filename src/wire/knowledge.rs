@@ -4,8 +4,8 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use singulate_planner::geometry::Arc;
+use singulate_planner::knowledge::Known;
 use singulate_planner::paper::PolarHistogram;
-use singulate_planner::plan::Known;
 use singulate_planner::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
 /// What is known of every object before any search.
@@ -65,14 +65,15 @@ pub struct HistogramBody {
 }
 
 impl KnowledgeBody {
-    /// The knowledge of a scene's objects.
-    pub fn new(scene: &Scene, known: &[Known]) -> Self {
-        Self { objects: known.iter().map(|known| KnownObject::new(scene, known)).collect() }
+    /// The knowledge of a scene's objects; with the paper's histograms where its sectors are the grasp model.
+    pub fn new(scene: &Scene, known: &[Known], sectors: bool) -> Self {
+        Self { objects: known.iter().map(|known| KnownObject::new(scene, known, sectors)).collect() }
     }
 }
 
 impl KnownObject {
-    fn new(scene: &Scene, known: &Known) -> Self {
+    fn new(scene: &Scene, known: &Known, sectors: bool) -> Self {
+        let histogram = |object| HistogramBody::new(&PolarHistogram::around(scene, object));
         let id = |object: &ObjectIndex| scene.object(*object).id().to_owned();
         let shadow = |obstacle, arcs| ShadowBody { obstacle, intervals: intervals(arcs) };
         let blockers = known.shadows.iter();
@@ -81,7 +82,7 @@ impl KnownObject {
             options: known.options.iter().map(|option| option.members.iter().map(id).collect()).collect(),
             option_yaws: known.options.iter().map(|option| intervals(&option.free)).collect(),
             shadows: blockers.map(|blocker| shadow(id(&blocker.object), blocker.shadow.arcs())).collect(),
-            histogram: known.histogram.as_ref().map(HistogramBody::new),
+            histogram: (sectors && !scene.object(known.object).fixed()).then(|| histogram(known.object)),
         }
     }
 }

@@ -4,7 +4,6 @@
 //! shape are told together with those of meaning, each with its JSON pointer.
 
 mod answer;
-mod claim;
 mod code;
 mod finding;
 mod glance;
@@ -14,6 +13,7 @@ mod json;
 mod knowledge;
 mod limits;
 mod malformed;
+mod object;
 mod path;
 mod plan_request;
 mod problem;
@@ -21,7 +21,8 @@ mod reader;
 mod request;
 mod scene;
 mod settings;
-mod stated;
+mod statement;
+mod step;
 mod survey;
 mod table1;
 mod table2;
@@ -29,10 +30,7 @@ mod typed;
 mod verification;
 mod walk;
 
-pub use answer::{
-    ActionWord, AnswerBody, DeadlockBody, GraspBody, PointBody, RelocationBody, StatisticsBody, VerdictWord, warnings,
-};
-pub use claim::{VerifyRequest, read_plan, read_verify};
+pub use answer::{AnswerBody, DeadlockBody, StatisticsBody, VerdictWord, warnings};
 pub use code::ErrorCode;
 pub use glance::Glance;
 pub use job::{
@@ -41,14 +39,16 @@ pub use job::{
 pub use job_request::{JobRequest, read_batch, read_job};
 pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
+pub use object::ObjectBody;
 pub use plan_request::PlanRequest;
 pub use problem::{Cause, ErrorItem, Problem, ProblemKind, WarningItem};
 pub use request::read_scene;
 pub use scene::{
-    GraspModelWord, GripperBody, ObjectBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord,
-    SettingsBody, TableBody,
+    GraspModelWord, GripperBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord, SettingsBody,
+    TableBody,
 };
-pub use stated::{AnyObject, PlanBody, StatedDeadlock, StatedGrasp, StatedPoint, StatedRelocation, VerifyBody};
+pub use statement::{AnyObject, PlanBody, StatedDeadlock, VerifyBody, VerifyRequest, read_plan, read_verify};
+pub use step::{ActionWord, GraspBody, PointBody, RelocationBody, StatedGraspBody, StatedPoint, StatedRelocation};
 pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
 pub use table1::{MethodBody, ModelBody, PaperBody, PaperMethodBody, PlansBody, Table1Body, Table1ColumnBody};
 pub use table2::{PaperRepositionBody, PlacementBody, Table2Body, Table2ColumnBody};

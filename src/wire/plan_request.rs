@@ -8,6 +8,7 @@ use super::path::Path;
 use super::problem::WarningItem;
 use super::reader::Faults;
 use super::settings::StatedSettings;
+use singulate_planner::paper::Methods;
 use singulate_planner::plan::Settings;
 use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
 
@@ -20,6 +21,8 @@ pub struct PlanRequest {
     pub scene_id: Option<String>,
     /// The planning settings.
     pub settings: Settings,
+    /// The methods to plan with.
+    pub methods: Methods,
     /// How deep the scene's discs may overlap, m.
     pub overlap_tolerance: f64,
     /// The time limit, queuing included.
@@ -55,8 +58,8 @@ impl StatedRequest {
         match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
             Ok((scene, warnings)) => {
                 let warnings = warnings.iter().map(|warning| finding::item(path, warning)).collect();
-                let (settings, time_limit) = settings.on(scene.table(), limits, path, faults)?;
-                Some(PlanRequest { scene, scene_id, settings, overlap_tolerance, time_limit, warnings })
+                let (settings, methods, time_limit) = settings.on(scene.table(), limits, path, faults)?;
+                Some(PlanRequest { scene, scene_id, settings, methods, overlap_tolerance, time_limit, warnings })
             }
             Err(findings) => {
                 findings.iter().for_each(|fault| finding::note(path, fault, faults));

@@ -2,6 +2,7 @@
 
 use super::code::ErrorCode;
 use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
+use super::object;
 use super::path::Path;
 use super::plan_request::{PlanRequest, StatedRequest};
 use super::problem::Problem;
@@ -34,9 +35,6 @@ pub(super) const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "o
 const TABLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
 const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
 const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
-// Later versions may have other shapes than discs.
-const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
-
 /// A planning request; `names` includes its own fields.
 pub(super) fn request(
     node: Node<'_>,
@@ -116,16 +114,5 @@ fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Optio
         faults.add(ErrorCode::TooManyObjects, node.path(), format_args!("{}", Flaw::TooManyObjects { count, max }));
         return None;
     }
-    node.list(faults, object)
-}
-
-fn object(node: Node<'_>, faults: &mut Faults) -> Option<ObjectDraft> {
-    let fields = node.fields(&OBJECT, faults)?;
-    Some(ObjectDraft {
-        id: fields.required("id", faults, |node, faults| node.text(faults)),
-        x: fields.number("x", faults),
-        y: fields.number("y", faults),
-        radius: fields.number("radius", faults),
-        fixed: fields.stated("fixed", faults, |node, faults| node.boolean(faults)).unwrap_or_default(),
-    })
+    node.list(faults, object::read)
 }

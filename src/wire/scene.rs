@@ -6,9 +6,10 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::object::ObjectBody;
 use crate::experiments::Repositioning;
-use singulate_planner::plan::{GraspModel, SearchMethod};
-use singulate_planner::scene::{Gripper, Object, Rectangle, Scene};
+use singulate_planner::paper::{GraspModelName, SearchMethod};
+use singulate_planner::scene::{Gripper, Rectangle, Scene};
 
 /// A scene and how to plan for it: the body of a planning request.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -111,28 +112,6 @@ pub struct GripperBody {
     #[schema(minimum = 0, maximum = 3.141592653589793, example = 0.0)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_tolerance: Option<f64>,
-}
-
-/// A disc on the table.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ObjectBody {
-    /// The caller's name for the object, unique in the scene.
-    #[schema(min_length = 1, max_length = 128, example = "plate-1")]
-    pub id: String,
-    /// Centre, m; on the table.
-    #[schema(minimum = -100000, maximum = 100000, example = 0.31)]
-    pub x: f64,
-    /// Centre, m; on the table.
-    #[schema(minimum = -100000, maximum = 100000, example = 0.22)]
-    pub y: f64,
-    /// Radius, m.
-    #[schema(minimum = 0.000001, maximum = 1000, example = 0.075)]
-    pub radius: f64,
-    /// True if it can't be moved. False where absent.
-    #[schema(example = false)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fixed: Option<bool>,
 }
 
 /// How to plan. Each field may be absent.
@@ -244,19 +223,11 @@ impl GripperBody {
     }
 }
 
-impl ObjectBody {
-    fn new(object: &Object) -> Self {
-        let disc = object.disc();
-        let fixed = object.fixed().then_some(true);
-        Self { id: object.id().to_owned(), x: disc.centre.x, y: disc.centre.y, radius: disc.radius, fixed }
-    }
-}
-
-impl From<GraspModel> for GraspModelWord {
-    fn from(model: GraspModel) -> Self {
+impl From<GraspModelName> for GraspModelWord {
+    fn from(model: GraspModelName) -> Self {
         match model {
-            GraspModel::SweptFinger => Self::SweptFinger,
-            GraspModel::Sector => Self::Sector,
+            GraspModelName::SweptFinger => Self::SweptFinger,
+            GraspModelName::Sector => Self::Sector,
         }
     }
 }

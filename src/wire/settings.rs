@@ -6,8 +6,8 @@ use super::code::ErrorCode;
 use super::limits::RequestLimits;
 use super::path::Path;
 use super::reader::{Faults, Fields, Names, Node};
-use singulate_planner::paper::Raster;
-use singulate_planner::plan::{GraspModel, Objective, PlacementMethod, SearchMethod, Settings};
+use singulate_planner::paper::{GraspModelName, Methods, PlacementMethod, Raster, SearchMethod};
+use singulate_planner::plan::{Objective, Settings};
 use singulate_planner::scene::Table;
 
 const SETTINGS: Names =
@@ -25,6 +25,7 @@ pub(super) struct StatedSettings {
 #[derive(Debug, Clone, Copy)]
 struct StatedPlanning {
     settings: Settings,
+    methods: Methods,
     raster: bool,
     time_limit: Duration,
 }
@@ -59,13 +60,16 @@ impl StatedSettings {
         limits: &RequestLimits,
         request: &Path<'_>,
         faults: &mut Faults,
-    ) -> Option<(Settings, Duration)> {
-        let StatedPlanning { settings, raster, time_limit } = self.overlap_tolerance.and(self.planning)?;
+    ) -> Option<(Settings, Methods, Duration)> {
+        let StatedPlanning { settings, methods, raster, time_limit } = self.overlap_tolerance.and(self.planning)?;
         if !raster {
-            return Some((settings, time_limit));
+            return Some((settings, methods, time_limit));
         }
         match Raster::new(limits.raster_resolution, table) {
-            Ok(raster) => Some((Settings { placement: PlacementMethod::Raster(raster), ..settings }, time_limit)),
+            Ok(raster) => {
+                let methods = Methods { placement: PlacementMethod::Raster(raster), ..methods };
+                Some((settings, methods, time_limit))
+            }
             Err(too_fine) => {
                 let settings = request.field("settings");
                 faults.add(ErrorCode::TooFine, &settings.field("placement"), format_args!("{too_fine}"));
@@ -78,13 +82,13 @@ impl StatedSettings {
 impl StatedPlanning {
     fn absent(limits: &RequestLimits) -> Self {
         let time_limit = limits.default_time_limit.min(limits.max_time_limit);
-        Self { settings: Settings::default(), raster: false, time_limit }
+        Self { settings: Settings::default(), methods: Methods::default(), raster: false, time_limit }
     }
 
     fn read(fields: Fields<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Self> {
         let absent = Self::absent(limits);
-        let grasp_models = [("swept_finger", GraspModel::SweptFinger), ("sector", GraspModel::Sector)];
-        let grasp_model = fields.optional("grasp_model", absent.settings.grasp_model, faults, |node, faults| {
+        let grasp_models = [("swept_finger", GraspModelName::SweptFinger), ("sector", GraspModelName::Sector)];
+        let grasp_model = fields.optional("grasp_model", absent.methods.grasp_model, faults, |node, faults| {
             node.word(&grasp_models, faults)
         });
         let searches = [
@@ -93,7 +97,7 @@ impl StatedPlanning {
             ("forward_astar", SearchMethod::ForwardAstar),
         ];
         let search =
-            fields.optional("search", absent.settings.search, faults, |node, faults| node.word(&searches, faults));
+            fields.optional("search", absent.methods.search, faults, |node, faults| node.word(&searches, faults));
         let placements = [("exact", false), ("raster", true)];
         let raster = fields.optional("placement", absent.raster, faults, |node, faults| node.word(&placements, faults));
         let objectives = [("far_from_target", Objective::FarFromTarget), ("short_moves", Objective::ShortMoves)];
@@ -103,12 +107,8 @@ impl StatedPlanning {
         let time_limit = fields.optional("time_limit_ms", absent.time_limit, faults, |node, faults| {
             node.whole((1, max), faults).map(Duration::from_millis)
         });
-        let settings = Settings {
-            grasp_model: grasp_model?,
-            search: search?,
-            placement: PlacementMethod::Exact,
-            objective: objective?,
-        };
-        Some(Self { settings, raster: raster?, time_limit: time_limit? })
+        let settings = Settings { objective: objective? };
+        let methods = Methods { grasp_model: grasp_model?, search: search?, placement: PlacementMethod::Exact };
+        Some(Self { settings, methods, raster: raster?, time_limit: time_limit? })
     }
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use singulate_planner::cost::Cost;
 use singulate_planner::plan::{SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::Scene;
 
@@ -23,8 +24,8 @@ pub struct SurveyedObject {
     /// What holds for it as the target.
     pub verdict: SurveyWord,
     /// No plan has fewer relocations, proven; null for a deadlock.
-    #[schema(required = true, example = 2)]
-    pub lower_bound: Option<usize>,
+    #[schema(value_type = Option<usize>, required = true, example = 2)]
+    pub lower_bound: Option<u64>,
     /// True if that many relocations suffice, places apart; null for a deadlock.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
@@ -73,6 +74,6 @@ impl SurveyedObject {
             SurveyVerdict::TimedOut => SurveyWord::TimedOut,
         };
         let id = scene.object(entry.object).id().to_owned();
-        Self { id, verdict, lower_bound: entry.lower_bound, optimal: entry.optimal }
+        Self { id, verdict, lower_bound: entry.lower_bound.map(Cost::get), optimal: entry.optimal }
     }
 }

@@ -7,7 +7,7 @@ use crate::experiments::{
     ExperimentSettings, Interval, MethodFigures, ModelFigures, PlanFigures, Printed, Spread, TABLE1_EPISODES,
     Table1Column,
 };
-use singulate_planner::plan::SearchMethod;
+use singulate_planner::paper::SearchMethod;
 
 /// Table I. Rates are from 0 to 1, times in seconds; null if there is nothing to measure.
 #[derive(Debug, Serialize)]

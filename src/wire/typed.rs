@@ -10,11 +10,12 @@ use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
 use super::limits::{MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
+use super::object::ObjectFields;
 use super::plan_request::StatedRequest;
 use super::reader::{Node, parse};
 use super::settings::StatedSettings;
 use super::walk::MAX_DEPTH;
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft, TableDraft};
 
 /// How deep a plan may be nested: the body of a verification is one level more.
 const MAX_PLAN_NESTING: usize = MAX_DEPTH - 1;
@@ -153,16 +154,6 @@ struct GripperFields {
     yaw_tolerance: Option<f64>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObjectFields {
-    id: String,
-    x: f64,
-    y: f64,
-    radius: f64,
-    fixed: Option<bool>,
-}
-
 impl RequestFields<'_> {
     /// `None` if it has fields of a job, or faulty settings.
     fn scene(self, limits: &RequestLimits) -> Option<StatedRequest> {
@@ -214,11 +205,5 @@ impl From<GripperFields> for GripperDraft {
             margin: Some(fields.margin.unwrap_or_default()),
             yaw_tolerance: Some(fields.yaw_tolerance.unwrap_or_default()),
         }
-    }
-}
-
-impl From<ObjectFields> for ObjectDraft {
-    fn from(ObjectFields { id, x, y, radius, fixed }: ObjectFields) -> Self {
-        Self { id: Some(id), x: Some(x), y: Some(y), radius: Some(radius), fixed: fixed.unwrap_or_default() }
     }
 }

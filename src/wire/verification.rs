@@ -4,7 +4,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::code::ERRORS_PAGE;
-use singulate_planner::plan::check::{Fault, Report};
+use singulate_planner::check::{Fault, Report};
 
 /// What the independent checker says of a stated answer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]

@@ -71,12 +71,12 @@ fn every_warning_is_explained() {
     for word in ["overlap", "fingers_overlap", "hangs_over_table", "wide_yaw_tolerance", "out_of_proportion"] {
         assert!(listed.remove(word) && enumerated("ErrorCode").contains(word), "{word}");
     }
-    assert_eq!(listed, matched(include_str!("../../planner/src/plan/warning.rs"), "code"));
+    assert_eq!(listed, matched(include_str!("../../planner/src/paper/warning.rs"), "code"));
 }
 
 #[test]
 fn every_fault_of_a_plan_is_explained() {
-    let mut codes = matched(include_str!("../../planner/src/plan/check/fault.rs"), "name");
+    let mut codes = matched(include_str!("../../planner/src/check/fault.rs"), "name");
     // No code of the checker: it says so by a field of its own.
     assert!(include_str!("../../src/wire/verification.rs").contains("of_answer(\"interrupted\""));
     codes.insert("interrupted".to_owned());

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate::wire::SceneBody;
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{complete, derivable, swept_finger_options};
+use singulate_planner::knowledge::{SweptFinger, complete, derivable};
 use singulate_planner::scene::{GripperDraft, Scene, SceneDraft, SceneLimits};
 
 /// One request for a job.
@@ -78,7 +78,7 @@ fn pressed(objects: usize, side: f64, pressed_gap: f64) -> SceneDraft {
 /// The object that chaining reaches last.
 fn freed_last(draft: &SceneDraft) -> String {
     let scene = Scene::new(draft.clone(), &SceneLimits::default()).unwrap().0;
-    let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
+    let base = complete(&scene, &SweptFinger, &Budget::unlimited()).unwrap();
     let closure = derivable(&base, |_| false, &Budget::unlimited()).unwrap();
     scene.object(*closure.order.last().unwrap()).id().to_owned()
 }

@@ -1,6 +1,7 @@
 //! Who is woken by what.
 
 use singulate::jobs::{End, NewJob, Watcher};
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 use tokio::sync::Notify;
 use tokio::time::timeout;
@@ -42,7 +43,7 @@ pub(crate) async fn a_change_wakes_who_waits_for_it(home: &Home) {
     let id = submitted(&store, calling()).await.id;
     let watcher = store.hints().watch(id);
     let claim = waking(&watcher, store.claim(&at(1).into())).await.unwrap().claim;
-    waking(&watcher, store.note(claim, Incumbent { cost: 2, lower_bound: 1 }, at(2))).await;
+    waking(&watcher, store.note(claim, Incumbent { cost: Cost::new(2), lower_bound: Cost::new(1) }, at(2))).await;
     waking(&watcher, store.cancel(&ann(), id, at(3))).await;
     waking(&watcher, store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(4))).await;
     woken(&store.hints().callbacks).await;

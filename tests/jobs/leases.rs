@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use singulate::jobs::{Claim, End, EventKind, JobState, MAX_ATTEMPTS, Renewal, Store, Swept};
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, claimed, job, seen, submitted};
@@ -30,7 +31,7 @@ pub(crate) async fn a_worker_that_renews_keeps_its_job(home: &Home) {
 async fn is_lost(store: &Arc<dyn Store>, claim: Claim, millis: i64) {
     let before = seen(store, claim.id).await;
     assert_eq!(store.renew(claim, &at(millis).into()).await.unwrap(), Renewal::Lost);
-    assert!(!store.note(claim, Incumbent { cost: 1, lower_bound: 1 }, at(millis)).await.unwrap());
+    assert!(!store.note(claim, Incumbent { cost: Cost::new(1), lower_bound: Cost::new(1) }, at(millis)).await.unwrap());
     assert!(!store.finish(claim, &answer(), at(millis)).await.unwrap());
     assert!(!store.hand_back(claim, at(millis)).await.unwrap());
     assert_eq!(seen(store, claim.id).await, before);
@@ -59,7 +60,7 @@ pub(crate) async fn an_end_is_kept_once_and_may_be_told_twice(home: &Home) {
     assert_eq!(seen(&store, id).await, ended);
     assert_eq!(store.renew(claim, &at(161).into()).await.unwrap(), Renewal::Lost);
     assert!(!store.hand_back(claim, at(161)).await.unwrap());
-    assert!(!store.note(claim, Incumbent { cost: 1, lower_bound: 1 }, at(161)).await.unwrap());
+    assert!(!store.note(claim, Incumbent { cost: Cost::new(1), lower_bound: Cost::new(1) }, at(161)).await.unwrap());
     assert_eq!(seen(&store, id).await, ended);
 }
 

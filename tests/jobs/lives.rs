@@ -1,6 +1,7 @@
 //! What a job is from its beginning to its end.
 
 use singulate::jobs::{Counts, End, Event, EventKind, Job, JobState, MAX_INCUMBENT_EVENTS, NewJob, Page};
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, bob, claimed, job, seen, submitted};
@@ -38,7 +39,7 @@ pub(crate) async fn a_job_is_queued_runs_and_succeeds(home: &Home) {
     let (state, started_at) = (JobState::Running, Some(at(10)));
     let running = Job { state, started_at, attempts: 1, queue_position: None, events: events.clone(), ..expected };
     assert_eq!(seen(&store, new.id).await, running);
-    let best = Incumbent { cost: 3, lower_bound: 1 };
+    let best = Incumbent { cost: Cost::new(3), lower_bound: Cost::new(1) };
     assert!(store.note(work.claim, best, at(20)).await.unwrap());
     assert!(store.finish(work.claim, &End::Succeeded(r#"{"cost":3}"#.parse().unwrap()), at(30)).await.unwrap());
     events.push(event(EventKind::Incumbent, 20, 1, Some(best)));
@@ -99,7 +100,7 @@ pub(crate) async fn the_best_so_far_never_gets_worse(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     let claim = claimed(&store, 1).await.claim;
-    let best = |cost, lower_bound| Incumbent { cost, lower_bound };
+    let best = |cost, bound| Incumbent { cost: Cost::new(cost), lower_bound: Cost::new(bound) };
     for (told, known) in [
         (best(9, 1), best(9, 1)),
         (best(9, 1), best(9, 1)),
@@ -120,12 +121,17 @@ pub(crate) async fn events_of_incumbents_end_at_a_hundred(home: &Home) {
     let id = submitted(&store, job()).await.id;
     let claim = claimed(&store, 1).await.claim;
     for lower_bound in 0..MAX_INCUMBENT_EVENTS + 5 {
-        assert!(store.note(claim, Incumbent { cost: 500, lower_bound }, at(5)).await.unwrap());
+        assert!(
+            store
+                .note(claim, Incumbent { cost: Cost::new(500), lower_bound: Cost::of_each(lower_bound) }, at(5))
+                .await
+                .unwrap()
+        );
     }
     let noted = seen(&store, id).await;
     let events = noted.events.iter().filter(|event| event.kind == EventKind::Incumbent).count();
     assert_eq!(events, MAX_INCUMBENT_EVENTS);
-    assert_eq!(noted.incumbent.unwrap().lower_bound, MAX_INCUMBENT_EVENTS + 4);
+    assert_eq!(noted.incumbent.unwrap().lower_bound, Cost::of_each(MAX_INCUMBENT_EVENTS + 4));
     assert!(store.finish(claim, &End::Succeeded("{}".parse().unwrap()), at(6)).await.unwrap());
     let last = *seen(&store, id).await.events.last().unwrap();
     assert_eq!((last.kind, last.incumbent), (EventKind::Finished, noted.incumbent));

@@ -10,6 +10,7 @@ use singulate::jobs::{
     Cancellation, Claim, End, Job, JobId, JobSettings, JobState, NewJob, Owner, Page, Removal, Renewal, Store,
     SubmitError, Swept, Timestamp, open,
 };
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 
 use crate::home::{Home, ann, at, bob, job};
@@ -63,7 +64,9 @@ enum Step {
 
 fn step() -> impl Strategy<Value = Step> {
     let worker = 0..WORKERS;
-    let incumbent = (3..6_usize, 0..3_usize).prop_map(|(cost, lower_bound)| Incumbent { cost, lower_bound });
+    let incumbent = (3..6_u64, 0..3_u64);
+    let incumbent =
+        incumbent.prop_map(|(cost, bound)| Incumbent { cost: Cost::new(cost), lower_bound: Cost::new(bound) });
     let key = prop::option::weighted(0.4, 0..3_u8);
     prop_oneof![
         6 => (any::<bool>(), 0..2_i64, key, prop::bool::weighted(0.9), 1..4_u32).prop_map(

@@ -8,6 +8,7 @@ use futures_util::future::{ready, select};
 use singulate::jobs::{
     Claim, Delivery, End, EventKind, Job, JobId, JobState, NewJob, Renewal, Store, Swept, WallClock,
 };
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 use sqlx::{Connection, PgConnection, SqliteConnection};
 use tokio::time::{Instant, sleep};
@@ -83,7 +84,7 @@ pub(crate) async fn what_has_timed_out_has_not_happened(home: &Home) {
         async { store.claim(&clock).await.is_err() },
         async { store.submit(&new, at(50)).await.is_err() },
         async { store.renew(claim, &clock).await.is_err() },
-        async { store.note(claim, Incumbent { cost: 2, lower_bound: 1 }, at(50)).await.is_err() },
+        async { store.note(claim, Incumbent { cost: Cost::new(2), lower_bound: Cost::new(1) }, at(50)).await.is_err() },
         async { store.finish(claim, &end, at(50)).await.is_err() },
         async { store.hand_back(claim, at(50)).await.is_err() },
         async { store.cancel(&owner, queued, at(50)).await.is_err() },

@@ -9,9 +9,11 @@ use singulate::jobs::{JobId, JobSettings, JobState, NewJob, Owner, Runner, Store
 use singulate::wire::RequestLimits;
 use singulate::workers::Draining;
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate_planner::paper::{Judged, Methods};
+use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
+use singulate_planner::statement::Statement;
 use tokio::time::sleep;
 use tokio_util::sync::CancellationToken;
 
@@ -128,12 +130,11 @@ async fn a_job_that_fails_says_why_in_its_line() {
 
 /// A planner that goes on until its budget ends.
 fn endless() -> Engine {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let verdict = Verdict::TimedOut(Unplanned::default());
-        Ok(Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
+        Ok(Answer { statement: Statement::timed_out(), statistics: Statistics::default() }.into())
     }
     Engine { plan, ..Engine::default() }
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde::Deserialize;
 use singulate_planner::budget::Budget;
+use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::{KnowledgeBase, derivable};
 use singulate_planner::scene::ObjectIndex;
 use singulate_planner::search::{Memory, Outcome, Restriction, SILENT, least_within};
@@ -19,7 +20,7 @@ struct Case {
 #[derive(Deserialize)]
 struct Expected {
     verdict: String,
-    relocations: Option<usize>,
+    relocations: Option<u64>,
 }
 
 /// Every base comes to its optimum, and each landmark holds.
@@ -38,8 +39,8 @@ fn solve_all(memory: &Memory) {
         match least_within(memory, &base, target, &Restriction::default(), &Budget::unlimited(), SILENT) {
             Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
             Outcome::Least(found) => {
-                assert_eq!(Some(found.bound), case.expected.relocations, "{}", case.name);
-                assert_eq!(found.derivation.order.len(), found.bound, "{}", case.name);
+                assert_eq!(Some(found.bound.get()), case.expected.relocations, "{}", case.name);
+                assert_eq!(Cost::of_each(found.derivation.order.len()), found.bound, "{}", case.name);
                 for landmark in &found.landmarks {
                     let held = |object| object == target || landmark.contains(&object);
                     let closure = derivable(&base, held, &Budget::unlimited()).unwrap();

@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use singulate::experiments::varied;
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_plan, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::check;
-use singulate_planner::plan::{Verdict, plan};
+use singulate_planner::check::check;
+use singulate_planner::paper::plan_by;
 use singulate_planner::scene::{Scene, SceneLimits};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::Verdict;
 
 /// How many scenes; the continuous integration asks for more.
 fn count() -> u64 {
@@ -17,16 +19,14 @@ fn count() -> u64 {
 /// The verdict by name, and the answer as it is served. The clock stands still, so that the statistics are the same too.
 fn answer(body: &[u8]) -> (&'static str, Vec<u8>) {
     let request = read_scene(body, &RequestLimits::default()).unwrap();
-    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
-    let name = match &answer.verdict {
-        Verdict::Graspable(_) => "graspable",
-        Verdict::Relocate(plan) if plan.optimal() => "relocate",
-        Verdict::Relocate(_) => "relocate, above the bound",
-        Verdict::Deadlock(_) => "deadlock",
-        Verdict::NoSpace(_) => "no_space",
-        Verdict::TimedOut(_) => unreachable!("the budget never ends"),
+    let judged = plan_by(&request.methods, &request.scene, &request.settings, &Budget::unlimited(), SILENT).unwrap();
+    let stated = judged.statement();
+    let name = match stated.verdict.unwrap() {
+        Verdict::Relocate if stated.optimal != Some(true) => "relocate, above the bound",
+        Verdict::TimedOut => unreachable!("the budget never ends"),
+        verdict => verdict.as_str(),
     };
-    (name, serde_json::to_vec(&AnswerBody::new(&request, &answer)).unwrap())
+    (name, serde_json::to_vec(&AnswerBody::new(&request, &judged)).unwrap())
 }
 
 #[test]
@@ -37,8 +37,8 @@ fn no_generated_scene_gets_an_answer_that_fails_its_check() {
         let body = serde_json::to_vec(&SceneBody::new(&scene, None)).unwrap();
         let (verdict, served) = answer(&body);
         assert_eq!(answer(&body).1, served, "seed {seed}: the same bytes on a second run");
-        let claim = read_plan(&served, &scene).unwrap();
-        assert_eq!(check(&scene, &claim, &Budget::unlimited()).faults, [], "seed {seed}");
+        let stated = read_plan(&served, &scene).unwrap();
+        assert_eq!(check(&scene, &stated, &Budget::unlimited()).faults, [], "seed {seed}");
         *verdicts.entry(verdict).or_default() += 1;
     }
     eprintln!("{verdicts:?}");

@@ -7,9 +7,12 @@ use serde_json::{Value, json};
 use singulate::experiments::varied;
 use singulate::wire::{AnswerBody, PlanRequest, RequestLimits, SceneBody, read_plan, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::check;
-use singulate_planner::plan::{Answer, Plan, Verdict, plan, survey};
-use singulate_planner::scene::{Disc, Scene, SceneLimits};
+use singulate_planner::check::check;
+use singulate_planner::paper::{Judged, plan_by};
+use singulate_planner::plan::survey;
+use singulate_planner::scene::{Footprint, Scene, SceneLimits};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{Statement, Step, Verdict};
 
 /// How far a centre is off, m.
 const NOISE: f64 = 3e-3;
@@ -37,36 +40,37 @@ fn read(body: &Value) -> Result<PlanRequest, String> {
     read_scene(body.to_string().as_bytes(), &RequestLimits::default()).map_err(|problem| problem.to_string())
 }
 
-/// The answer, once it has passed the checker as it is served.
-fn answered(request: &PlanRequest, named: &str) -> Answer {
-    let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
-    let served = serde_json::to_vec(&AnswerBody::new(request, &answer)).unwrap();
-    let claim = read_plan(&served, &request.scene).unwrap();
-    assert_eq!(check(&request.scene, &claim, &Budget::unlimited()).faults, [], "{named}");
-    answer
+fn planned(request: &PlanRequest) -> Judged {
+    plan_by(&request.methods, &request.scene, &request.settings, &Budget::unlimited(), SILENT).unwrap()
+}
+
+/// What the answer states, once it has passed the checker as it is served.
+fn answered(request: &PlanRequest, named: &str) -> Statement {
+    let judged = planned(request);
+    let served = serde_json::to_vec(&AnswerBody::new(request, &judged)).unwrap();
+    let stated = read_plan(&served, &request.scene).unwrap();
+    assert_eq!(check(&request.scene, &stated, &Budget::unlimited()).faults, [], "{named}");
+    judged.answer.statement
 }
 
 /// Carries the steps out with nothing but distances: each object comes to stand the margin away from all others, so that no
 /// pair overlaps deeper than it did.
-fn keeps_apart(scene: &Scene, plan: &Plan, named: &str) {
-    let mut discs: Vec<Disc> = scene.objects().iter().map(|object| object.disc()).collect();
-    for step in &plan.relocations {
-        let at = step.object.get();
-        assert_eq!(discs[at].centre, step.from, "{named}");
-        discs[at].centre = step.to;
+fn keeps_apart(scene: &Scene, steps: &[Step], named: &str) {
+    let mut discs: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint()).collect();
+    for Step::PickPlace(step) in steps {
+        let at = scene.find(&step.object).unwrap().get();
+        assert_eq!(Some(discs[at].pose), step.from, "{named}");
+        discs[at].pose = step.to;
         let others = discs.iter().enumerate().filter(|(other, _)| *other != at);
         let least = others.map(|(_, other)| discs[at].gap(other)).fold(f64::INFINITY, f64::min);
         assert!(least >= scene.gripper().margin() - 1e-9, "{named}: {least}");
     }
 }
 
-fn verdict(answer: &Answer) -> &'static str {
-    match answer.verdict {
-        Verdict::Graspable(_) => "graspable",
-        Verdict::Relocate(_) => "relocate",
-        Verdict::Deadlock(_) => "deadlock",
-        Verdict::NoSpace(_) => "no_space",
-        Verdict::TimedOut(_) => unreachable!("the budget never ends"),
+fn verdict(stated: &Statement) -> &'static str {
+    match stated.verdict.unwrap() {
+        Verdict::TimedOut => unreachable!("the budget never ends"),
+        verdict => verdict.as_str(),
     }
 }
 
@@ -79,11 +83,9 @@ fn noise_of_three_millimetres_is_planned_for_where_the_cell_says_so() {
         for objective in ["far_from_target", "short_moves"] {
             let settings = json!({"overlap_tolerance": 2.0 * NOISE, "objective": objective});
             let request = read(&with_settings(body.clone(), settings)).unwrap();
-            let answer = answered(&request, &named);
-            if let Verdict::Relocate(plan) = &answer.verdict {
-                keeps_apart(&request.scene, plan, &named);
-            }
-            *verdicts.entry(verdict(&answer)).or_default() += 1;
+            let stated = answered(&request, &named);
+            keeps_apart(&request.scene, stated.steps(), &named);
+            *verdicts.entry(verdict(&stated)).or_default() += 1;
         }
     }
     assert!(refused > 50, "{refused}");
@@ -100,7 +102,7 @@ fn noise_as_deep_as_the_service_admits_is_surveyed_and_answered_by_every_method(
             let settings = json!({"overlap_tolerance": 0.01, "grasp_model": grasp_model, "search": search,
                 "placement": placement});
             let request = read(&with_settings(noisy(seed), settings)).unwrap();
-            plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
+            planned(&request);
             assert!(!survey(&request.scene, &Budget::unlimited()).unwrap().is_empty(), "{named}");
         }
     }
@@ -133,10 +135,8 @@ fn a_rack_is_a_row_of_fixed_discs_that_overlap() {
             let body = with_settings(behind(count, pitch), json!({"objective": objective}));
             let request = read(&body).unwrap();
             assert_eq!(request.warnings, []);
-            let answer = answered(&request, &format!("{count} discs {pitch} m apart"));
-            if let Verdict::Relocate(plan) = &answer.verdict {
-                keeps_apart(&request.scene, plan, objective);
-            }
+            let stated = answered(&request, &format!("{count} discs {pitch} m apart"));
+            keeps_apart(&request.scene, stated.steps(), objective);
         }
     }
     let rack = read(&behind(22, 0.03)).unwrap();

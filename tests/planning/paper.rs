@@ -5,16 +5,17 @@ use std::fs;
 use singulate::experiments::{Recipe, generate, varied};
 use singulate::wire::{RequestLimits, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, OptionsOf, complete, swept_finger_options};
+use singulate_planner::check::{FaultCode, check};
+use singulate_planner::cost::Cost;
+use singulate_planner::knowledge::{GraspModel, KnowledgeBase, SweptFinger, complete};
 use singulate_planner::paper::{
-    Conclusion, PolarHistogram, Raster, forward_astar, lobs, sector_options, sector_shadow,
+    Conclusion, GraspModelName, Judged, Methods, PlacementMethod, PolarHistogram, Raster, SearchMethod, Sector,
+    Warning, forward_astar, lobs, plan_by,
 };
-use singulate_planner::plan::check::{FaultCode, check};
-use singulate_planner::plan::{
-    Answer, Claim, GraspModel, PlacementMethod, SearchMethod, Settings, Verdict, Warning, plan,
-};
+use singulate_planner::plan::Settings;
 use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
-use singulate_planner::search::{Derivation, Outcome, Restriction, least};
+use singulate_planner::search::{Derivation, Outcome, Restriction, SILENT, least};
+use singulate_planner::statement::{Statement, Verdict};
 
 const MANY: usize = 1_000_000;
 
@@ -27,11 +28,11 @@ fn papers_scenes() -> impl Iterator<Item = Scene> {
     })
 }
 
-fn base(scene: &Scene, options_of: OptionsOf) -> KnowledgeBase {
-    complete(scene, options_of, &Budget::unlimited()).unwrap()
+fn base(scene: &Scene, model: &dyn GraspModel) -> KnowledgeBase {
+    complete(scene, model, &Budget::unlimited()).unwrap()
 }
 
-fn optimum(base: &KnowledgeBase, target: ObjectIndex) -> Option<usize> {
+fn optimum(base: &KnowledgeBase, target: ObjectIndex) -> Option<Cost> {
     match least(base, target, &Restriction::default(), &Budget::unlimited()) {
         Outcome::Least(known) => Some(known.bound),
         Outcome::Underivable => None,
@@ -45,20 +46,32 @@ fn fixture(name: &str) -> Scene {
     read_scene(&fs::read(path).unwrap(), &RequestLimits::default()).unwrap().scene
 }
 
-fn planned(scene: &Scene, grasp_model: GraspModel, search: SearchMethod) -> Answer {
-    let settings = Settings { grasp_model, search, ..Settings::default() };
-    plan(scene, &settings, &Budget::unlimited()).unwrap()
+fn planned(scene: &Scene, methods: &Methods) -> Judged {
+    plan_by(methods, scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap()
 }
 
-fn exact(scene: &Scene) -> Answer {
-    planned(scene, GraspModel::SweptFinger, SearchMethod::Landmarks)
+fn by_lobs(scene: &Scene) -> Judged {
+    planned(scene, &Methods { search: SearchMethod::Lobs, ..Methods::default() })
 }
 
-fn cost(answer: &Answer) -> usize {
-    match &answer.verdict {
-        Verdict::Relocate(plan) => plan.cost(),
-        other => panic!("no plan: {other:?}"),
-    }
+fn exact(scene: &Scene) -> Judged {
+    planned(scene, &Methods::default())
+}
+
+/// The cost of a plan, counted by its steps.
+#[track_caller]
+fn cost(stated: &Statement) -> Cost {
+    assert_eq!(stated.verdict, Some(Verdict::Relocate), "no plan: {stated:?}");
+    let counted = Cost::of_each(stated.steps().len());
+    assert_eq!(stated.cost, Some(counted));
+    counted
+}
+
+/// The same, and whether the plan is said to be optimal.
+#[track_caller]
+fn cost_and_optimal(judged: &Judged) -> (Cost, Option<bool>) {
+    let stated = judged.statement();
+    (cost(stated), stated.optimal)
 }
 
 #[test]
@@ -69,7 +82,7 @@ fn lobs_takes_a_need_at_two_depths_for_a_cycle() {
         [vec![set(&[1, 2])], vec![set(&[2])], vec![set(&[3])], vec![set(&[])]].into_iter().collect();
     let target = ObjectIndex::new(0);
     assert_eq!(lobs(&base, target, MANY, &Budget::unlimited()), Ok(Conclusion::Deadlock));
-    assert_eq!(optimum(&base, target), Some(3));
+    assert_eq!(optimum(&base, target), Some(Cost::new(3)));
     let sequence = Conclusion::Sequence(Derivation { order: set(&[3, 2, 1]) });
     assert_eq!(forward_astar(&base, target, MANY, &Budget::unlimited()), Ok(sequence));
     // With c held by b there is none.
@@ -81,38 +94,39 @@ fn lobs_takes_a_need_at_two_depths_for_a_cycle() {
 #[test]
 fn lobs_moves_more_than_is_needed_and_is_told_so() {
     let scene = fixture("not_optimal");
-    let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
-    assert_eq!(cost(&answer), 5);
-    assert_eq!(answer.warnings, [Warning::NotOptimal { found: 5, enough: 3 }]);
-    assert_eq!(answer.optimal(), Some(false));
+    let judged = by_lobs(&scene);
+    assert_eq!(cost_and_optimal(&judged), (Cost::new(5), Some(false)));
+    assert_eq!(judged.warnings, [Warning::NotOptimal { found: Cost::new(5), enough: Cost::new(3) }]);
     let exact = exact(&scene);
-    assert_eq!((cost(&exact), exact.optimal()), (3, Some(true)));
+    assert_eq!(cost_and_optimal(&exact), (Cost::new(3), Some(true)));
     assert!(exact.warnings.is_empty());
 }
 
 #[test]
 fn a_false_deadlock_of_lobs_is_served_without_proof_and_with_a_warning() {
     let scene = fixture("false_deadlock");
-    let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
-    assert_eq!(answer.verdict, Verdict::Deadlock(None));
+    let judged = by_lobs(&scene);
+    let stated = judged.statement();
+    assert_eq!((stated.verdict, &stated.deadlock), (Some(Verdict::Deadlock), &None));
+    let enough = Cost::new(5);
     assert_eq!(
-        answer.warnings,
-        [Warning::FalseDeadlock { enough: 5 }, Warning::UnprovenDeadlock { enough: Some(5), setting: "search" }]
+        judged.warnings,
+        [Warning::FalseDeadlock { enough }, Warning::UnprovenDeadlock { enough: Some(enough), setting: "search" }]
     );
-    let exact = exact(&scene);
-    assert_eq!((cost(&exact), exact.optimal()), (5, Some(true)));
+    assert_eq!(cost_and_optimal(&exact(&scene)), (enough, Some(true)));
 }
 
 #[test]
 fn a_true_deadlock_of_the_papers_methods_comes_with_our_proof() {
     let mut deadlocks = 0;
     for scene in papers_scenes() {
-        let exact = exact(&scene);
-        if let Verdict::Deadlock(proof) = exact.verdict {
+        let ours = exact(&scene).answer.statement;
+        if ours.verdict == Some(Verdict::Deadlock) {
             deadlocks += 1;
-            let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
-            assert_eq!(answer.verdict, Verdict::Deadlock(proof));
-            assert!(answer.warnings.is_empty(), "{:?}", answer.warnings);
+            let judged = by_lobs(&scene);
+            assert!(ours.deadlock.is_some());
+            assert_eq!(judged.answer.statement, ours);
+            assert!(judged.warnings.is_empty(), "{:?}", judged.warnings);
         }
     }
     assert!(deadlocks > 0);
@@ -130,7 +144,7 @@ fn is_derivation(base: &KnowledgeBase, target: ObjectIndex, order: &[ObjectIndex
 fn in_the_papers_cases_its_searches_find_the_optimum() {
     let (mut sequences, mut deadlocks) = (0, 0);
     for scene in papers_scenes() {
-        for base in [base(&scene, sector_options), base(&scene, swept_finger_options)] {
+        for base in [base(&scene, &Sector), base(&scene, &SweptFinger)] {
             for target in scene.indices() {
                 let optimum = optimum(&base, target);
                 let mut found = vec![lobs(&base, target, MANY, &Budget::unlimited()).unwrap()];
@@ -143,7 +157,7 @@ fn in_the_papers_cases_its_searches_find_the_optimum() {
                         Conclusion::Sequence(Derivation { order }) => {
                             sequences += 1;
                             assert!(is_derivation(&base, target, &order), "{order:?}");
-                            assert_eq!(Some(order.len()), optimum);
+                            assert_eq!(Some(Cost::of_each(order.len())), optimum);
                         }
                         Conclusion::Deadlock => {
                             deadlocks += 1;
@@ -161,7 +175,7 @@ fn in_the_papers_cases_its_searches_find_the_optimum() {
 #[test]
 fn a_search_that_outgrows_its_memory_says_so() {
     let scene = fixture("not_optimal");
-    let (base, target) = (base(&scene, swept_finger_options), scene.target());
+    let (base, target) = (base(&scene, &SweptFinger), scene.target());
     assert_eq!(lobs(&base, target, 3, &Budget::unlimited()), Ok(Conclusion::TooLarge));
     assert_eq!(forward_astar(&base, target, 3, &Budget::unlimited()), Ok(Conclusion::TooLarge));
 }
@@ -171,13 +185,13 @@ fn the_histogram_blocks_a_sector_exactly_where_a_sector_shadow_covers_it() {
     for scene in papers_scenes().take(4) {
         for object in scene.indices() {
             let g = PolarHistogram::around(&scene, object).g();
-            let (gripper, grasped) = (scene.gripper(), scene.object(object).disc());
+            let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
             let others: Vec<_> = scene.indices().filter(|other| *other != object).collect();
             assert_eq!(g.len(), 120);
             for (z, magnitude) in g.iter().enumerate() {
                 let yaw = f64::from(u32::try_from(z).unwrap()).to_radians();
                 let covers = |other: &ObjectIndex| {
-                    let shadow = sector_shadow(gripper, &grasped, &scene.object(*other).disc(), 0.0);
+                    let shadow = Sector.shadow(gripper, &grasped, &scene.object(*other).footprint(), 0.0);
                     shadow.arcs().iter().any(|arc| arc.lo <= yaw && yaw <= arc.hi)
                 };
                 assert_eq!(*magnitude > 0.0, others.iter().any(covers), "{object:?} {z}");
@@ -205,26 +219,29 @@ fn what_sectors_leave_free_the_fingers_do_too_but_not_the_other_way_round() {
     for scene in papers_scenes() {
         for target in scene.indices() {
             let scene = scene.with_target(target).unwrap();
-            let (sector, exact) = (planned(&scene, GraspModel::Sector, SearchMethod::Landmarks), exact(&scene));
-            match (&sector.verdict, &exact.verdict) {
-                (Verdict::Deadlock(None), Verdict::Relocate(plan)) => {
+            let by_sectors = Methods { grasp_model: GraspModelName::Sector, ..Methods::default() };
+            let (sector, ours) = (planned(&scene, &by_sectors), exact(&scene).answer.statement);
+            let stated = &sector.answer.statement;
+            match (stated.verdict.unwrap(), ours.verdict.unwrap()) {
+                (Verdict::Deadlock, Verdict::Relocate) => {
                     unproven += 1;
-                    let enough = plan.bound.as_ref().map(|bound| bound.cost);
-                    let setting = "grasp_model";
+                    assert_eq!(stated.deadlock, None);
+                    let (enough, setting) = (ours.lower_bound, "grasp_model");
                     assert_eq!(sector.warnings, [Warning::UnprovenDeadlock { enough, setting }]);
                 }
-                (Verdict::Deadlock(Some(lock)), Verdict::Deadlock(Some(ours))) => {
+                (Verdict::Deadlock, Verdict::Deadlock) => {
                     proven += 1;
-                    assert_eq!(lock, ours);
+                    assert!(ours.deadlock.is_some());
+                    assert_eq!(stated.deadlock, ours.deadlock);
                 }
-                (Verdict::Relocate(plan), Verdict::Relocate(ours)) => {
+                (Verdict::Relocate, Verdict::Relocate) => {
                     plans += 1;
-                    assert_eq!(plan.bound, ours.bound);
-                    let least = ours.bound.as_ref().map_or(0, |bound| bound.cost);
-                    let fewer = (plan.cost() > least).then_some(Warning::FewerSuffice { enough: least });
+                    assert_eq!((stated.lower_bound, &stated.landmarks), (ours.lower_bound, &ours.landmarks));
+                    let enough = ours.lower_bound.unwrap();
+                    let fewer = (cost(stated) > enough).then_some(Warning::FewerSuffice { enough });
                     assert_eq!(sector.warnings, fewer.into_iter().collect::<Vec<_>>());
                 }
-                (_, Verdict::Deadlock(_)) => panic!("{sector:?}"),
+                (_, Verdict::Deadlock) => panic!("{sector:?}"),
                 _ => {}
             }
         }
@@ -239,20 +256,20 @@ fn releases_without_room_become_warnings_of_a_raster_plan() {
     for scene in papers_scenes().chain(made_up) {
         for target in scene.indices().take(6) {
             let Some(scene) = scene.with_target(target) else { continue };
-            let raster = PlacementMethod::Raster(Raster::new(0.005, scene.table()).unwrap());
-            let settings = Settings { placement: raster, ..Settings::default() };
-            let answer = plan(&scene, &settings, &Budget::unlimited()).unwrap();
-            let Verdict::Relocate(plan) = &answer.verdict else { continue };
+            let placement = PlacementMethod::Raster(Raster::new(0.005, scene.table()).unwrap());
+            let judged = planned(&scene, &Methods { placement, ..Methods::default() });
+            let stated = judged.statement();
+            if stated.verdict != Some(Verdict::Relocate) {
+                continue;
+            }
             plans += 1;
             // The bound is that of the swept finger, whatever becomes of the places.
-            assert!(plan.optimal(), "{answer:?}");
-            assert_eq!(answer.optimal(), (!answer.faulty()).then_some(true));
-            let mut claim = Claim::of(&scene, &answer);
-            claim.optimal = None;
-            let report = check(&scene, &claim, &Budget::unlimited());
+            assert_eq!(stated.lower_bound, Some(cost(stated)), "{judged:?}");
+            assert_eq!(stated.optimal, (!judged.faulty()).then_some(true));
+            let report = check(&scene, &Statement { optimal: None, ..stated.clone() }, &Budget::unlimited());
             let faults: Vec<Warning> = report.faults.iter().cloned().map(Warning::Faulty).collect();
-            assert_eq!(answer.warnings, faults);
-            faulty += usize::from(answer.faulty());
+            assert_eq!(judged.warnings, faults);
+            faulty += usize::from(judged.faulty());
             let known = [FaultCode::ReleaseBlocked, FaultCode::WrongSlack];
             other += report.faults.iter().filter(|fault| !known.contains(&fault.code)).count();
         }
@@ -263,7 +280,6 @@ fn releases_without_room_become_warnings_of_a_raster_plan() {
 #[test]
 fn an_unproven_deadlock_does_not_pass_for_a_proof() {
     let scene = fixture("false_deadlock");
-    let answer = planned(&scene, GraspModel::SweptFinger, SearchMethod::Lobs);
-    let report = check(&scene, &Claim::of(&scene, &answer), &Budget::unlimited());
+    let report = check(&scene, &by_lobs(&scene).answer.statement, &Budget::unlimited());
     assert_eq!(report.faults.iter().map(|fault| fault.code).collect::<Vec<_>>(), [FaultCode::MissingPart]);
 }

@@ -3,32 +3,38 @@
 use nalgebra::Point2;
 use singulate::experiments::{Recipe, generate, varied};
 use singulate_planner::budget::Budget;
-use singulate_planner::geometry::shadow;
+use singulate_planner::check::FaultCode::{self, *};
+use singulate_planner::geometry::Grasp;
+use singulate_planner::knowledge::SweptFinger;
 use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster, reposition};
-use singulate_planner::placement::Arrangement;
-use singulate_planner::plan::check::FaultCode::{self, *};
-use singulate_planner::plan::{Claim, ClaimedGrasp, ClaimedRelocation, Settings, Verdict, plan};
+use singulate_planner::placement::{Arrangement, Relocation};
+use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::{ObjectIndex, Scene, SceneDraft, SceneLimits};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 use crate::check::scenes::{Builder, codes, judge};
 
-fn stated(scene: &Scene, arrangement: &Arrangement) -> Claim {
-    let grasp = |grasp: singulate_planner::geometry::Grasp| ClaimedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
-    let steps = arrangement.relocations.iter().map(|step| ClaimedRelocation {
-        object: scene.object(step.object).id().to_owned(),
-        from: Some(step.from),
-        to: step.to,
-        grasp: grasp(step.grasp),
-        release: grasp(step.release),
-        gap: Some(step.gap),
-    });
+fn stated(scene: &Scene, arrangement: &Arrangement) -> Statement {
+    let grasp = |grasp: Grasp| StatedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
+    let step = |step: &Relocation| {
+        Step::PickPlace(PickPlace {
+            object: scene.object(step.object).id().to_owned(),
+            from: Some(step.from),
+            to: step.to,
+            grasp: grasp(step.grasp),
+            release: grasp(step.release),
+            gap: Some(step.gap),
+        })
+    };
     let target_grasp = Some(grasp(arrangement.target_grasp));
-    Claim { relocations: Some(steps.collect()), target_grasp, ..Claim::default() }
+    let relocations = Some(arrangement.relocations.iter().map(step).collect());
+    Statement { relocations, target_grasp, ..Statement::default() }
 }
 
 fn repositioned(scene: &Scene, order: &[ObjectIndex]) -> Option<Arrangement> {
     let raster = Raster::new(DEFAULT_RESOLUTION, scene.table()).unwrap();
-    reposition(scene, order, &raster, shadow, &Budget::unlimited()).unwrap()
+    reposition(scene, order, &raster, &SweptFinger, &Budget::unlimited()).unwrap()
 }
 
 /// All but one place is in a keep-out. Three others stand round it, 30 mm away, each of which takes 48° of the fingers'
@@ -52,7 +58,7 @@ fn a_place_where_the_gripper_cannot_open_is_taken_all_the_same() {
     }
     let scene = scene.build("t");
     let arrangement = repositioned(&scene, &[ObjectIndex::new(1)]).unwrap();
-    let to = arrangement.relocations[0].to;
+    let to = arrangement.relocations[0].to.at;
     assert!((to - Point2::new(1.0, 1.0)).norm() < 0.007, "{to}");
     assert_eq!(codes(&judge(&scene, &stated(&scene, &arrangement))), [ReleaseBlocked]);
 }
@@ -60,9 +66,11 @@ fn a_place_where_the_gripper_cannot_open_is_taken_all_the_same() {
 /// Faults of the raster's places for the objects of our own plans, or `None` where one of the two finds none.
 fn faults(draft: SceneDraft) -> Option<Vec<FaultCode>> {
     let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
-    let answer = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap();
-    let Verdict::Relocate(ours) = answer.verdict else { return None };
-    let order: Vec<ObjectIndex> = ours.relocations.iter().map(|step| step.object).collect();
+    let ours = plan(&scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap().statement;
+    if ours.verdict != Some(Verdict::Relocate) {
+        return None;
+    }
+    let order: Vec<ObjectIndex> = ours.steps().iter().map(|step| scene.find(step.object()).unwrap()).collect();
     Some(codes(&judge(&scene, &stated(&scene, &repositioned(&scene, &order)?))))
 }
 

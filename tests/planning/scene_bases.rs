@@ -2,10 +2,12 @@
 
 use singulate::experiments::{Arrangement, Recipe, generate};
 use singulate_planner::budget::Budget;
-use singulate_planner::knowledge::{KnowledgeBase, complete, derivable, relevant, swept_finger_options};
-use singulate_planner::plan::{Settings, Verdict, plan};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits};
-use singulate_planner::search::{Outcome, Restriction, least};
+use singulate_planner::cost::Cost;
+use singulate_planner::knowledge::{KnowledgeBase, SweptFinger, complete, derivable, relevant};
+use singulate_planner::plan::{Settings, plan};
+use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft};
+use singulate_planner::search::{Outcome, Restriction, SILENT, least};
+use singulate_planner::statement::{Statement, Verdict};
 
 /// Up to 11 discs, with gaps about as wide as a finger, so that options share members, hold each other and the target.
 fn crowd(seed: u64) -> Scene {
@@ -58,19 +60,19 @@ fn the_least_set_of_a_small_crowd_is_what_exhaustion_finds() {
     let (mut derived, mut locked, mut around_the_target) = (0, 0, 0);
     for seed in 0..600 {
         let scene = crowd(seed);
-        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
+        let base = complete(&scene, &SweptFinger, &Budget::unlimited()).unwrap();
         let options = masks(&base);
         for target in scene.indices().filter(|&object| !scene.object(object).fixed()) {
             let at = target.get();
             let all = (1_u32 << options.len()) - 1;
             let expected = (0..=all).filter(|&set| set >> at & 1 == 0);
             let expected = expected.filter(|&set| follows(&options, at, set)).map(u32::count_ones).min();
-            let near = relevant(&scene, target, swept_finger_options, &Budget::unlimited()).unwrap();
+            let near = relevant(&scene, target, &SweptFinger, &Budget::unlimited()).unwrap();
             match least(&near, target, &Restriction::default(), &Budget::unlimited()) {
                 Outcome::Least(found) => {
-                    assert_eq!(u32::try_from(found.bound).ok(), expected, "seed {seed} target {at}");
-                    assert_eq!(found.derivation.order.len(), found.bound);
-                    derived += usize::from(found.bound > 0);
+                    assert_eq!(u32::try_from(found.bound.get()).ok(), expected, "seed {seed} target {at}");
+                    assert_eq!(Cost::of_each(found.derivation.order.len()), found.bound);
+                    derived += usize::from(found.bound > Cost::ZERO);
                     around_the_target += usize::from(options.iter().flatten().any(|option| option >> at & 1 == 1));
                     let landmarks = masks(&[vec![vec![]], found.landmarks].into_iter().collect());
                     for &landmark in &landmarks[1] {
@@ -88,36 +90,40 @@ fn the_least_set_of_a_small_crowd_is_what_exhaustion_finds() {
     assert!(derived > 300 && locked > 300 && around_the_target > 300);
 }
 
+fn planned(scene: &Scene) -> Statement {
+    plan(scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap().statement
+}
+
 #[test]
 fn a_lock_of_a_small_crowd_holds_and_no_part_of_its_core_does() {
     let (mut locks, mut with_fixed) = (0, 0);
     for seed in 0..600 {
         let scene = crowd(seed);
-        let Verdict::Deadlock(Some(lock)) = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap().verdict
-        else {
-            continue;
-        };
-        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
+        let Some(lock) = planned(&scene).deadlock else { continue };
+        let base = complete(&scene, &SweptFinger, &Budget::unlimited()).unwrap();
         let options = masks(&base);
         let set = |members: &[ObjectIndex]| members.iter().fold(0_u32, |set, member| set | 1 << member.get());
         let holds = |set: u32| {
             let movable = (0..options.len()).filter(|&o| set >> o & 1 == 1 && !scene.objects()[o].fixed());
             movable.into_iter().all(|member| options[member].iter().all(|option| option & set != 0))
         };
-        let (blocked, core) = (set(&lock.blocked), set(&lock.core));
+        let members = |ids: &[String]| ids.iter().map(|id| scene.find(id).unwrap()).collect::<Vec<_>>();
+        let greatest = members(&lock.blocked);
+        let (blocked, core) = (set(&greatest), set(&members(&lock.core)));
         assert!(holds(blocked) && holds(core) && core & !blocked == 0, "seed {seed}: {lock:?}");
         let target = 1 << scene.target().get();
         let parts = (0..core).filter(|part| part & !core == 0 && part & target != 0);
         assert_eq!(parts.into_iter().find(|&part| holds(part)), None, "seed {seed}: {lock:?}");
         let closure = derivable(&base, |_| false, &Budget::unlimited()).unwrap();
         let stuck = scene.indices().filter(|&o| !scene.object(o).fixed() && !closure.derives(o));
+        let fixed: Vec<ObjectIndex> = greatest.into_iter().filter(|&o| scene.object(o).fixed()).collect();
         assert_eq!(
-            blocked & !set(&lock.blocked.iter().copied().filter(|&o| scene.object(o).fixed()).collect::<Vec<_>>()),
+            blocked & !set(&fixed),
             set(&stuck.collect::<Vec<_>>()),
             "seed {seed}: all that is stuck is in the greatest lock"
         );
         locks += 1;
-        with_fixed += usize::from(lock.blocked.iter().any(|&object| scene.object(object).fixed()));
+        with_fixed += usize::from(!fixed.is_empty());
     }
     assert!(locks > 50 && with_fixed > 10, "{locks} {with_fixed}");
 }
@@ -130,7 +136,7 @@ fn beside_a_fixed_plate(fingers: u32) -> SceneDraft {
         id: Some(id.into()),
         x: Some(x),
         y: Some(0.35),
-        radius: Some(0.075),
+        shape: ShapeDraft::disc(0.075),
         fixed,
     };
     draft.objects = vec![plate("wanted", 0.5, false), plate("plate", 0.65, true)];
@@ -142,11 +148,11 @@ fn beside_a_fixed_plate(fingers: u32) -> SceneDraft {
 fn one_touching_fixed_plate_locks_six_fingers_and_more_but_not_five() {
     for fingers in 2..=12 {
         let (scene, _) = Scene::new(beside_a_fixed_plate(fingers), &SceneLimits::default()).unwrap();
-        let verdict = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap().verdict;
-        let both: Vec<ObjectIndex> = scene.indices().collect();
-        match verdict {
-            Verdict::Graspable(_) => assert!(fingers <= 5, "{fingers}"),
-            Verdict::Deadlock(Some(lock)) => {
+        let stated = planned(&scene);
+        let both: Vec<String> = scene.objects().iter().map(|object| object.id().to_owned()).collect();
+        match (stated.verdict, stated.deadlock) {
+            (Some(Verdict::Graspable), None) => assert!(fingers <= 5, "{fingers}"),
+            (Some(Verdict::Deadlock), Some(lock)) => {
                 assert!(fingers >= 6, "{fingers}");
                 assert_eq!((&lock.core, &lock.blocked), (&both, &both));
             }

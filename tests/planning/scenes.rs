@@ -4,7 +4,11 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use singulate::wire::{RequestLimits, read_scene};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Claim, Verdict, check, plan};
+use singulate_planner::check::check;
+use singulate_planner::cost::Cost;
+use singulate_planner::plan::plan;
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::Verdict;
 
 #[derive(Deserialize)]
 struct Case<'a> {
@@ -17,19 +21,19 @@ struct Case<'a> {
 #[derive(Deserialize)]
 struct Expected {
     verdict: String,
-    relocations: Option<usize>,
+    relocations: Option<u64>,
 }
 
 /// The least number of objects that meet all sets, by trying every choice for the first open set.
-fn least_hitting_set<T: PartialEq + Copy>(sets: &[Vec<T>], chosen: &mut Vec<T>, limit: usize) -> Option<usize> {
-    let Some(open) = sets.iter().find(|set| !set.iter().any(|member| chosen.contains(member))) else {
+fn least_hitting_set<'a, T: PartialEq>(sets: &'a [Vec<T>], chosen: &mut Vec<&'a T>, limit: usize) -> Option<usize> {
+    let Some(open) = sets.iter().find(|set| !set.iter().any(|member| chosen.contains(&member))) else {
         return Some(chosen.len());
     };
     if chosen.len() == limit {
         return None;
     }
     let mut best: Option<usize> = None;
-    for &member in open {
+    for member in open {
         chosen.push(member);
         let limit = best.map_or(limit, |best| best - 1);
         best = least_hitting_set(sets, chosen, limit).or(best);
@@ -46,27 +50,31 @@ fn every_golden_scene_gets_its_verdict_and_its_proven_optimum() {
     for case in &cases {
         let name = &case.name;
         let request = read_scene(case.scene.get().as_bytes(), &RequestLimits::default()).unwrap();
-        let answer = plan(&request.scene, &request.settings, &Budget::unlimited()).unwrap();
-        let (verdict, bound) = match &answer.verdict {
-            Verdict::Graspable(_) => ("graspable", None),
-            Verdict::Deadlock(_) => ("deadlock", None),
-            Verdict::Relocate(plan) => {
-                assert!(plan.optimal(), "{name}: {} relocations, bound {:?}", plan.cost(), plan.bound);
-                ("relocate", plan.bound.as_ref())
+        let stated = plan(&request.scene, &request.settings, &Budget::unlimited(), SILENT).unwrap().statement;
+        let verdict = match stated.verdict.unwrap() {
+            Verdict::Graspable => "graspable",
+            Verdict::Deadlock => "deadlock",
+            Verdict::Relocate => {
+                let counted = Cost::of_each(stated.steps().len());
+                assert_eq!((stated.lower_bound, stated.optimal), (Some(counted), Some(true)), "{name}: {stated:?}");
+                "relocate"
             }
-            Verdict::NoSpace(rest) => {
+            Verdict::NoSpace => {
                 no_space.push(name);
-                ("relocate", rest.bound.as_ref())
+                "relocate"
             }
-            Verdict::TimedOut(_) => unreachable!("the budget never ends"),
+            Verdict::TimedOut => unreachable!("the budget never ends"),
         };
         assert_eq!(verdict, case.expected.verdict, "{name}");
+        // A deadlock has no bound.
+        let bound = stated.lower_bound.map(Cost::get);
+        assert_eq!(bound, case.expected.relocations, "{name}");
         if let Some(bound) = bound {
-            assert_eq!(Some(bound.cost), case.expected.relocations, "{name}");
-            let proven = least_hitting_set(&bound.landmarks, &mut Vec::new(), bound.cost);
-            assert_eq!(proven, Some(bound.cost), "{name}: {:?}", bound.landmarks);
+            let (landmarks, bound) = (stated.landmarks.as_deref().unwrap(), usize::try_from(bound).unwrap());
+            let proven = least_hitting_set(landmarks, &mut Vec::new(), bound);
+            assert_eq!(proven, Some(bound), "{name}: {landmarks:?}");
         }
-        let report = check::check(&request.scene, &Claim::of(&request.scene, &answer), &Budget::unlimited());
+        let report = check(&request.scene, &stated, &Budget::unlimited());
         assert_eq!(report.faults, [], "{name}");
     }
     eprintln!("{} of {} golden scenes without space: {no_space:?}", no_space.len(), cases.len());

@@ -2,13 +2,23 @@
 
 use singulate::experiments::{Recipe, generate, varied};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::check;
-use singulate_planner::plan::{Answer, Claim, Objective, Relocation, Settings, Statistics, Verdict, plan};
-use singulate_planner::scene::{Disc, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::check::check;
+use singulate_planner::cost::Cost;
+use singulate_planner::plan::{Objective, Settings, plan};
+use singulate_planner::scene::{
+    Footprint, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
+};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{PickPlace, Statement, Step, Verdict};
 
-fn verdict(draft: SceneDraft, objective: Objective) -> Verdict {
-    let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
-    plan(&scene, &Settings { objective, ..Settings::default() }, &Budget::unlimited()).unwrap().verdict
+use crate::check::scenes::step_mut;
+
+fn planned(scene: &Scene, objective: Objective) -> Statement {
+    plan(scene, &Settings { objective }, &Budget::unlimited(), SILENT).unwrap().statement
+}
+
+fn planned_for(draft: SceneDraft, objective: Objective) -> Statement {
+    planned(&Scene::new(draft, &SceneLimits::default()).unwrap().0, objective)
 }
 
 /// Three discs in a row on a table of `width` m: the outer two hold the middle one.
@@ -20,7 +30,7 @@ fn row(width: f64, margin: f64) -> SceneDraft {
         id: Some(id.to_owned()),
         x: Some(x),
         y: Some(width / 2.0),
-        radius: Some(0.04),
+        shape: ShapeDraft::disc(0.04),
         fixed: false,
     };
     let apart = 0.08 + margin.max(0.01);
@@ -32,21 +42,21 @@ fn row(width: f64, margin: f64) -> SceneDraft {
 #[test]
 fn a_place_keeps_five_millimetres_from_the_edge_whatever_the_margin_and_nothing_where_there_is_no_room() {
     for (width, margin, edge) in [(0.5, 0.0, 5e-3), (0.5, 0.03, 5e-3), (0.082, 0.0, 0.0), (0.082, 0.03, 0.0)] {
-        let Verdict::Relocate(plan) = verdict(row(width, margin), Objective::FarFromTarget) else {
-            panic!("{width} {margin}")
-        };
+        let stated = planned_for(row(width, margin), Objective::FarFromTarget);
+        assert_eq!(stated.verdict, Some(Verdict::Relocate), "{width} {margin}");
         let gap = |at: f64, side: f64| at.min(side - at) - 0.04;
-        for step in &plan.relocations {
-            let nearest = gap(step.to.x, 1.0).min(gap(step.to.y, width));
+        for Step::PickPlace(step) in stated.steps() {
+            let nearest = gap(step.to.at.x, 1.0).min(gap(step.to.at.y, width));
             assert!((nearest - edge).abs() < 1e-5, "{width} {margin}: {nearest}");
-            assert!(step.gap >= margin, "{}", step.gap);
+            assert!(step.gap.unwrap() >= margin, "{:?}", step.gap);
         }
     }
 }
 
 #[track_caller]
-fn assert_optimal(verdict: &Verdict) {
-    assert!(matches!(verdict, Verdict::Relocate(plan) if plan.optimal()), "{verdict:?}");
+fn assert_optimal(stated: &Statement) {
+    assert!(stated.verdict == Some(Verdict::Relocate) && stated.optimal == Some(true), "{stated:?}");
+    assert_eq!(stated.lower_bound, Some(Cost::of_each(stated.steps().len())));
 }
 
 #[test]
@@ -60,14 +70,14 @@ fn twenty_thousand_keep_outs_are_not_paired_with_each_other() {
         draft.table.keep_out.push(RectangleDraft { x_min, y_min, x_max, y_max });
     }
     for objective in [Objective::FarFromTarget, Objective::ShortMoves] {
-        assert_optimal(&verdict(draft.clone(), objective));
+        assert_optimal(&planned_for(draft.clone(), objective));
     }
 }
 
 #[test]
 fn a_place_that_is_worse_by_the_objective_is_better_than_one_more_relocation() {
-    assert_optimal(&verdict(varied(208), Objective::FarFromTarget));
-    assert_optimal(&verdict(varied(1035), Objective::ShortMoves));
+    assert_optimal(&planned_for(varied(208), Objective::FarFromTarget));
+    assert_optimal(&planned_for(varied(1035), Objective::ShortMoves));
 }
 
 /// A stair on whose steps each disc can only be gripped along the way to the next one, which stands in that way. Crumbs
@@ -80,7 +90,7 @@ fn stair(steps: u32) -> SceneDraft {
     (draft.gripper.finger_width, draft.gripper.clearance) = (Some(0.06), Some(0.03));
     let mut objects = Vec::new();
     let mut disc = |id: String, x: f64, y: f64, radius: f64, fixed: bool| {
-        objects.push(ObjectDraft { id: Some(id), x: Some(x), y: Some(y), radius: Some(radius), fixed });
+        objects.push(ObjectDraft { id: Some(id), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed });
     };
     for step in 0..steps {
         let (x, y) = (pitch * f64::from(step.div_ceil(2)), pitch * f64::from(step / 2));
@@ -98,39 +108,38 @@ fn stair(steps: u32) -> SceneDraft {
 #[test]
 fn a_long_plan_on_a_wide_table_is_found() {
     for objective in [Objective::FarFromTarget, Objective::ShortMoves] {
-        let verdict = verdict(stair(150), objective);
-        assert_optimal(&verdict);
-        assert!(matches!(verdict, Verdict::Relocate(plan) if plan.cost() == 149));
+        let stated = planned_for(stair(150), objective);
+        assert_optimal(&stated);
+        assert_eq!((stated.cost, stated.steps().len()), (Some(Cost::new(149)), 149));
     }
 }
 
 /// Does the disc keep the 5 mm that the planner keeps where it can?
-fn keeps_preferred_gap(scene: &Scene, object: ObjectIndex, disc: &Disc) -> bool {
+fn keeps_preferred_gap(scene: &Scene, object: ObjectIndex, footprint: &Footprint) -> bool {
     let gap = 0.005;
-    let apart = |other: ObjectIndex| disc.gap(&scene.object(other).disc()) >= gap + scene.gripper().margin();
+    let apart = |other: ObjectIndex| footprint.gap(&scene.object(other).footprint()) >= gap + scene.gripper().margin();
     scene.indices().filter(|&other| other != object).all(apart)
-        && scene.table().top().inner_gap(disc) >= gap
-        && scene.table().keep_out().iter().all(|area| area.outer_gap(disc) >= gap)
+        && footprint.gap_inside(&scene.table().top()) >= gap
+        && scene.table().keep_out().iter().all(|area| footprint.gap_outside(area) >= gap)
 }
 
 /// A move that the checker admits and that is no longer than `limit` (m), among 36 directions, 20 distances and 24 release
 /// yaws.
-fn shorter_move(scene: &Scene, verdict: &Verdict, step: &Relocation, limit: f64) -> Option<f64> {
-    let answer = Answer { verdict: verdict.clone(), warnings: Vec::new(), statistics: Statistics::default() };
-    let stated = Claim::of(scene, &answer);
-    let plan_only = Claim { lower_bound: None, optimal: None, landmarks: None, ..stated };
+fn shorter_move(scene: &Scene, stated: &Statement, step: &PickPlace, limit: f64) -> Option<f64> {
+    let plan_only = Statement { lower_bound: None, optimal: None, landmarks: None, ..stated.clone() };
+    let (object, from) = (scene.find(&step.object).unwrap(), step.from.unwrap().at);
     (1..=20).map(|n| limit * f64::from(n) / 20.0).find(|&distance| {
         (0..36).map(|n| core::f64::consts::TAU * f64::from(n) / 36.0).any(|angle| {
-            let to = step.from + distance * nalgebra::Vector2::new(libm::cos(angle), libm::sin(angle));
-            let disc = scene.object(step.object).disc().at(to);
-            keeps_preferred_gap(scene, step.object, &disc)
+            let to = from + distance * nalgebra::Vector2::new(libm::cos(angle), libm::sin(angle));
+            let placed = scene.object(object).footprint().moved_to(to.into());
+            keeps_preferred_gap(scene, object, &placed)
                 && (0..24).any(|n| {
-                    let mut claim = plan_only.clone();
-                    let moved = &mut claim.relocations.as_mut().unwrap()[0];
-                    (moved.to, moved.gap, moved.release.slack) = (to, None, None);
+                    let mut shorter = plan_only.clone();
+                    let moved = step_mut(&mut shorter, 0);
+                    (moved.to, moved.gap, moved.release.slack) = (to.into(), None, None);
                     moved.release.yaw = scene.gripper().period() * f64::from(n) / 24.0;
-                    claim.target_grasp.as_mut().unwrap().slack = None;
-                    check(scene, &claim, &Budget::unlimited()).faults.is_empty()
+                    shorter.target_grasp.as_mut().unwrap().slack = None;
+                    check(scene, &shorter, &Budget::unlimited()).faults.is_empty()
                 })
         })
     })
@@ -141,15 +150,16 @@ fn no_short_move_is_much_longer_than_sampling_finds() {
     let mut seen = 0;
     for seed in 0..200 {
         let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
-        let settings = Settings { objective: Objective::ShortMoves, ..Settings::default() };
-        let verdict = plan(&scene, &settings, &Budget::unlimited()).unwrap().verdict;
-        let Verdict::Relocate(found) = &verdict else { continue };
-        let [step] = found.relocations[..] else { continue };
-        let (moved, own) = ((step.to - step.from).norm(), scene.object(step.object).disc());
-        if step.gap >= 0.005 + scene.gripper().margin() && scene.table().top().inner_gap(&own.at(step.to)) >= 0.005 {
+        let stated = planned(&scene, Objective::ShortMoves);
+        let [Step::PickPlace(step)] = stated.steps() else { continue };
+        let own = scene.object(scene.find(&step.object).unwrap()).footprint();
+        let moved = (step.to.at - step.from.unwrap().at).norm();
+        if step.gap.unwrap() >= 0.005 + scene.gripper().margin()
+            && own.moved_to(step.to).gap_inside(&scene.table().top()) >= 0.005
+        {
             let limit = (0.8 * moved - 0.002).max(0.0);
             assert_eq!(
-                shorter_move(&scene, &verdict, &step, limit).filter(|_| limit > 0.0),
+                shorter_move(&scene, &stated, step, limit).filter(|_| limit > 0.0),
                 None,
                 "seed {seed}: moved {moved} m"
             );

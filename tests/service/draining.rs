@@ -8,7 +8,8 @@ use std::time::Instant;
 
 use singulate::api::{Engine, ServerSettings};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::paper::{Judged, Methods};
+use singulate_planner::plan::{PlanError, Settings};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
 
@@ -121,7 +122,7 @@ async fn nobody_who_asks_nothing_keeps_a_service_from_its_end() {
 async fn a_computation_that_does_not_end_is_left_behind() {
     static RELEASED: AtomicBool = AtomicBool::new(false);
     static RUNNING: AtomicBool = AtomicBool::new(false);
-    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         RUNNING.store(true, Ordering::SeqCst);
         while !RELEASED.load(Ordering::SeqCst) {
             std::thread::sleep(Duration::from_millis(1));

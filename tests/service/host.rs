@@ -11,9 +11,11 @@ use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
 use singulate::jobs::{client_builder, trusted_roots};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate_planner::paper::{Judged, Methods};
+use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
+use singulate_planner::statement::Statement;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
@@ -154,12 +156,11 @@ pub(crate) async fn read_to_end(mut stream: TcpStream) -> String {
 
 /// A planner that goes on until its budget ends.
 pub(crate) fn endless() -> Engine {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let verdict = Verdict::TimedOut(Unplanned::default());
-        Ok(Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() })
+        Ok(Answer { statement: Statement::timed_out(), statistics: Statistics::default() }.into())
     }
     Engine { plan, ..Engine::default() }
 }

@@ -7,7 +7,8 @@ use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
 use singulate::metrics::{CallbackOutcome, Ended, Metrics, Queue, Refusal, StoreOutcome};
-use singulate_planner::plan::{Answer, Statistics, Unplanned, Verdict};
+use singulate_planner::plan::{Answer, Statistics};
+use singulate_planner::statement::Statement;
 use tokio::time::timeout;
 
 use crate::host::{Host, PATIENCE, raw_post, scene};
@@ -85,7 +86,7 @@ fn everything() -> Metrics {
         metrics.set_busy(*queue, 2);
     }
     let statistics = Statistics { search: moment, check: moment, ..Statistics::default() };
-    metrics.planned(&Answer { verdict: Verdict::TimedOut(Unplanned::default()), warnings: Vec::new(), statistics });
+    metrics.planned(&Answer { statement: Statement::timed_out(), statistics });
     metrics.set_jobs(3, 1);
     metrics.attempt(1);
     metrics.attempt(2);

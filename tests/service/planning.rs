@@ -7,22 +7,24 @@ use std::time::Instant;
 use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::Report;
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics, Unplanned, Verdict};
+use singulate_planner::check::Report;
+use singulate_planner::paper::{Judged, Methods};
+use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
+use singulate_planner::statement::Statement;
 
 use crate::host::{Host, PATIENCE, raw_plan, scene, wait_until};
 
 const ONE_THREAD: fn(usize) -> ServerSettings =
     |queue| ServerSettings { threads: 1, queue, ..ServerSettings::default() };
 
-pub(crate) fn timed_out() -> Answer {
-    Answer { verdict: Verdict::TimedOut(Unplanned::default()), warnings: Vec::new(), statistics: Statistics::default() }
+pub(crate) fn timed_out() -> Judged {
+    Answer { statement: Statement::timed_out(), statistics: Statistics::default() }.into()
 }
 
 /// Runs until the budget ends, and counts itself in `running` meanwhile.
-pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Result<Answer, PlanError> {
+pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Result<Judged, PlanError> {
     running.fetch_add(1, Ordering::SeqCst);
     while budget.check().is_ok() {
         std::thread::sleep(Duration::from_millis(1));
@@ -35,11 +37,12 @@ pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Re
 macro_rules! endless {
     ($running:ident) => {{
         fn plan(
+            _: &Methods,
             _: &Scene,
             _: &Settings,
             budget: &Budget<'_>,
             _: singulate_planner::search::Progress<'_>,
-        ) -> Result<Answer, PlanError> {
+        ) -> Result<Judged, PlanError> {
             wait_for_the_end(&$running, budget)
         }
         Engine { plan, ..Engine::default() }
@@ -103,7 +106,7 @@ async fn waiting_for_a_thread_counts_towards_the_time_limit() {
 
 #[tokio::test]
 async fn a_planner_that_forgets_the_time_is_not_waited_for() {
-    fn plan(_: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         // Far past the deadline, until the handler gives up and cancels.
         while budget.elapsed() < Duration::from_secs(2) {
             std::thread::sleep(Duration::from_millis(1));
@@ -117,7 +120,7 @@ async fn a_planner_that_forgets_the_time_is_not_waited_for() {
 
 #[tokio::test]
 async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
-    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         panic!("on purpose");
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;
@@ -129,7 +132,7 @@ async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
 
 #[tokio::test]
 async fn an_answer_that_fails_its_check_is_withheld() {
-    fn plan(_: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Answer, PlanError> {
+    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         Err(PlanError::Refused(Report::default()))
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;

@@ -11,7 +11,7 @@
 
 /// The rectangle that an open finger sweeps: [`inner`, `outer`] × [−`half_width`, `half_width`], m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SweptFinger {
+pub struct SweptRectangle {
     /// r, the radius of the grasped object.
     pub inner: f64,
     /// R = r + clearance.
@@ -36,7 +36,7 @@ pub enum BlockedOffsets {
     },
 }
 
-impl SweptFinger {
+impl SweptRectangle {
     /// The offsets at which a disc whose centre is at `distance` d > 0 blocks, when it must stay `rho` ρ > 0 away (m).
     pub fn blocked_offsets(&self, distance: f64, rho: f64) -> BlockedOffsets {
         let Self { inner: r, outer, half_width: h } = *self;
@@ -103,14 +103,14 @@ mod tests {
     use proptest::prelude::*;
 
     /// Distance of the point at (`distance`, `offset`) to the finger's rectangle: the definition, nothing else.
-    fn gap(finger: &SweptFinger, distance: f64, offset: f64) -> f64 {
+    fn gap(finger: &SweptRectangle, distance: f64, offset: f64) -> f64 {
         let (x, y) = (distance * libm::cos(offset), distance * libm::sin(offset));
         let dx = (finger.inner - x).max(x - finger.outer).max(0.0);
         let dy = (y.abs() - finger.half_width).max(0.0);
         (dx * dx + dy * dy).sqrt()
     }
 
-    fn check(finger: &SweptFinger, distance: f64, rho: f64) {
+    fn check(finger: &SweptRectangle, distance: f64, rho: f64) {
         let blocked = finger.blocked_offsets(distance, rho);
         let scale = finger.outer + finger.half_width + distance;
         for step in 0..=2000 {
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn every_case_has_its_scene() {
-        let finger = SweptFinger { inner: 0.075, outer: 0.125, half_width: 0.01 };
+        let finger = SweptRectangle { inner: 0.075, outer: 0.125, half_width: 0.01 };
         let cases = [
             ("side", 0.11, 0.03),
             ("outer corner", 0.16, 0.075),
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_disc_that_touches_the_fingers_does_not_block() {
-        let finger = SweptFinger { inner: 1.0, outer: 2.0, half_width: 0.0 };
+        let finger = SweptRectangle { inner: 1.0, outer: 2.0, half_width: 0.0 };
         assert_eq!(finger.blocked_offsets(2.5, 0.5), BlockedOffsets::Clear);
         assert_eq!(finger.blocked_offsets(0.5, 0.5), BlockedOffsets::Clear);
     }
@@ -164,7 +164,7 @@ mod tests {
             rho in 0.001..1.0_f64,
             place in 0.0..1.1_f64,
         ) {
-            let finger = SweptFinger { inner, outer: inner + clearance, half_width };
+            let finger = SweptRectangle { inner, outer: inner + clearance, half_width };
             let farthest = (finger.outer * finger.outer + half_width * half_width).sqrt() + rho;
             check(&finger, (farthest * place).max(1e-6), rho);
         }

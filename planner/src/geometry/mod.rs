@@ -8,6 +8,6 @@ mod grasp;
 mod shadow;
 
 pub use arcs::{Arc, ArcSet, FreeInterval};
-pub use finger::{BlockedOffsets, SweptFinger};
+pub use finger::{BlockedOffsets, SweptRectangle};
 pub use grasp::{Grasp, widest_grasp};
-pub use shadow::{Shadow, shadow};
+pub use shadow::shadow;

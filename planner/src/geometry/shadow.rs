@@ -1,29 +1,23 @@
 //! The yaws at which one obstacle blocks the whole gripper.
 
 use super::arcs::ArcSet;
-use super::finger::{BlockedOffsets, SweptFinger};
-use crate::scene::{Disc, Gripper, distance};
-
-/// A model of grasping: the shadow of an obstacle (third) on a grasp of an object (second), when the fingers must stay
-/// the gripper's margin plus some extra (fourth, m) away from it. Reaches no further than the fingers' corners.
-pub type Shadow = fn(&Gripper, &Disc, &Disc, f64) -> ArcSet;
+use super::finger::{BlockedOffsets, SweptRectangle};
+use crate::scene::{Footprint, Gripper, Shape, distance};
 
 /// The shadow of `obstacle` on a grasp of `grasped` by the swept finger model, when the fingers must stay the gripper's
 /// margin plus `extra` (m) away from it. The k fingers are 2π/k apart, so modulo that period one finger's shadow is the
 /// gripper's.
-pub fn shadow(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, extra: f64) -> ArcSet {
+pub fn shadow(gripper: &Gripper, grasped: &Footprint, obstacle: &Footprint, extra: f64) -> ArcSet {
     let period = gripper.period();
-    let finger = SweptFinger {
-        inner: grasped.radius,
-        outer: grasped.radius + gripper.clearance(),
-        half_width: gripper.finger_width() / 2.0,
-    };
-    let apart = distance(grasped.centre, obstacle.centre);
-    match finger.blocked_offsets(apart, obstacle.radius + gripper.margin() + extra) {
+    let (Shape::Disc { radius }, Shape::Disc { radius: others }) = (grasped.shape, obstacle.shape);
+    let finger =
+        SweptRectangle { inner: radius, outer: radius + gripper.clearance(), half_width: gripper.finger_width() / 2.0 };
+    let apart = distance(grasped.at(), obstacle.at());
+    match finger.blocked_offsets(apart, others + gripper.margin() + extra) {
         BlockedOffsets::Clear => ArcSet::empty(period),
         BlockedOffsets::Every => ArcSet::full(period),
         BlockedOffsets::Between { first, last } => {
-            let towards = obstacle.centre - grasped.centre;
+            let towards = obstacle.at() - grasped.at();
             let bearing = libm::atan2(towards.y, towards.x);
             if first > 0.0 {
                 ArcSet::fold(period, &[(bearing - last, bearing - first), (bearing + first, bearing + last)])
@@ -42,12 +36,20 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, TableDraft};
+    use crate::scene::{
+        GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft,
+    };
 
     fn gripper(fingers: u32, finger_width: f64, clearance: f64, margin: f64) -> Gripper {
         let side = |at: f64| Some(at);
         let top = RectangleDraft { x_min: side(-9.0), y_min: side(-9.0), x_max: side(9.0), y_max: side(9.0) };
-        let only = ObjectDraft { id: Some("a".into()), x: side(0.0), y: side(0.0), radius: side(1.0), fixed: false };
+        let only = ObjectDraft {
+            id: Some("a".into()),
+            x: side(0.0),
+            y: side(0.0),
+            shape: ShapeDraft::disc(1.0),
+            fixed: false,
+        };
         let gripper = GripperDraft {
             fingers: Some(fingers.into()),
             finger_width: Some(finger_width),
@@ -61,15 +63,15 @@ mod tests {
     }
 
     /// How far the obstacle's edge is from the nearest finger, beyond the margin, m: the definition, finger by finger.
-    fn room(gripper: &Gripper, grasped: &Disc, obstacle: &Disc, yaw: f64) -> f64 {
-        let (inner, outer) = (grasped.radius, grasped.radius + gripper.clearance());
+    fn room(gripper: &Gripper, grasped: &Footprint, obstacle: &Footprint, yaw: f64) -> f64 {
+        let (inner, outer) = (grasped.circumradius(), grasped.circumradius() + gripper.clearance());
         (0..gripper.fingers())
             .map(|finger| {
                 let turn = Rotation2::new(-(yaw + TAU * f64::from(finger) / f64::from(gripper.fingers())));
-                let at = turn * (obstacle.centre - grasped.centre);
+                let at = turn * (obstacle.at() - grasped.at());
                 let dx = (inner - at.x).max(at.x - outer).max(0.0);
                 let dy = (at.y.abs() - gripper.finger_width() / 2.0).max(0.0);
-                (dx * dx + dy * dy).sqrt() - obstacle.radius - gripper.margin()
+                (dx * dx + dy * dy).sqrt() - obstacle.circumradius() - gripper.margin()
             })
             .fold(f64::INFINITY, f64::min)
     }
@@ -91,12 +93,12 @@ mod tests {
             (x, y) in (-5.0..5.0_f64, -5.0..5.0_f64),
         ) {
             let gripper = gripper(fingers, finger_width, clearance, margin);
-            let grasped = Disc { centre: Point2::new(x, y), radius };
+            let grasped = Footprint::disc(Point2::new(x, y), radius);
             // From touching to just out of reach.
-            let (near, far) = (radius, gripper.corner_distance(radius) + margin);
+            let (near, far) = (radius, gripper.corner_distance(&grasped) + margin);
             let apart = obstacle_radius + near + away * (far - near);
             let towards = Rotation2::new(bearing) * nalgebra::Vector2::new(apart, 0.0);
-            let obstacle = Disc { centre: grasped.centre + towards, radius: obstacle_radius };
+            let obstacle = Footprint::disc(grasped.at() + towards, obstacle_radius);
             let shadow = shadow(&gripper, &grasped, &obstacle, 0.0);
             for step in 0..1440 {
                 let yaw = TAU * f64::from(step) / 1440.0;

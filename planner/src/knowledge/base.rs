@@ -75,6 +75,11 @@ impl KnowledgeBase {
         self.rules_of(object).map(|rule| self.body(rule))
     }
 
+    /// True if the object can be moved as the table stands.
+    pub fn free_now(&self, object: ObjectIndex) -> bool {
+        self.options(object).any(<[_]>::is_empty)
+    }
+
     /// The numbers of an object's rules.
     pub(super) fn rules_of(&self, object: ObjectIndex) -> core::ops::Range<usize> {
         self.first_rule[object.get()] as usize..self.first_rule[object.get() + 1] as usize

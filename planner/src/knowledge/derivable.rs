@@ -32,7 +32,7 @@ pub fn derivable(
         for rule in base.rules_of(object) {
             missing.push(u32::try_from(base.body(rule).len()).unwrap_or(u32::MAX));
         }
-        if base.options(object).any(<[_]>::is_empty) {
+        if base.free_now(object) {
             derivable.derive(object);
         }
     }

@@ -1,17 +1,20 @@
 //! The knowledge base: which obstacles must go first, which objects are derivable, which are locked.
 //!
-//! Each option of an object is a definite Horn rule: "all of these are relocated ⇒ the object is graspable".
+//! Each option of an object is a definite Horn rule: "all of these are relocated ⇒ the object can be picked". The rules are
+//! those of pick-and-place, so a lock is a lock against pick-and-place.
 
 mod base;
 mod derivable;
+mod grasp_model;
+mod known;
 mod lock;
 mod options;
 mod scene_base;
 
 pub use base::KnowledgeBase;
 pub use derivable::{Derivable, derivable};
+pub use grasp_model::{GraspModel, SweptFinger, blockers};
+pub use known::{Known, KnownOption, known};
 pub use lock::{Locks, locks};
 pub use options::{Blocker, minimal_options};
-pub use scene_base::{
-    MAX_BASE_SIZE, NoBase, OptionsOf, blockers, complete, completed, fixed_blockers, relevant, swept_finger_options,
-};
+pub use scene_base::{MAX_BASE_SIZE, NoBase, complete, completed, fixed_blockers, relevant};

@@ -1,9 +1,8 @@
 //! The knowledge base of a scene.
 
 use super::base::KnowledgeBase;
-use super::options::{Blocker, minimal_options};
+use super::grasp_model::{GraspModel, SweptFinger, those_blocking};
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::{Shadow, shadow};
 use crate::scene::{ObjectIndex, Scene};
 
 /// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base
@@ -27,17 +26,13 @@ impl From<Interrupted> for NoBase {
     }
 }
 
-/// A grasp model as rules: the options of a movable object. Returns at least one, since removing everything in reach
-/// always frees the object.
-pub type OptionsOf = fn(&Scene, ObjectIndex) -> Vec<Vec<ObjectIndex>>;
-
 /// The base of every movable object.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
-pub fn complete(scene: &Scene, options_of: OptionsOf, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+pub fn complete(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
     let nothing: KnowledgeBase = scene.indices().map(|_| Vec::new()).collect();
-    completed(scene, &nothing, options_of, budget)
+    completed(scene, &nothing, model, budget)
 }
 
 /// The base of every movable object, given the part of it that [`relevant`] found.
@@ -47,7 +42,7 @@ pub fn complete(scene: &Scene, options_of: OptionsOf, budget: &Budget<'_>) -> Re
 pub fn completed(
     scene: &Scene,
     part: &KnowledgeBase,
-    options_of: OptionsOf,
+    model: &dyn GraspModel,
     budget: &Budget<'_>,
 ) -> Result<KnowledgeBase, NoBase> {
     let mut base = KnowledgeBase::new();
@@ -55,7 +50,7 @@ pub fn completed(
         budget.check()?;
         // An object without options in `part` was not derived there: every movable object has at least one.
         if part.rules_of(object).is_empty() {
-            base.push(movable_options(scene, object, options_of));
+            base.push(bodies(scene, object, model));
         } else {
             base.push_same(part, Some(object));
         }
@@ -74,7 +69,7 @@ pub fn completed(
 pub fn relevant(
     scene: &Scene,
     target: ObjectIndex,
-    options_of: OptionsOf,
+    model: &dyn GraspModel,
     budget: &Budget<'_>,
 ) -> Result<KnowledgeBase, NoBase> {
     let count = scene.objects().len();
@@ -85,7 +80,7 @@ pub fn relevant(
     let mut order = vec![target];
     while let Some(&object) = order.get(reached.len()) {
         budget.check()?;
-        reached.push(movable_options(scene, object, options_of));
+        reached.push(bodies(scene, object, model));
         for &member in reached.options(ObjectIndex::new(reached.len() - 1)).flatten() {
             if !core::mem::replace(&mut seen[member.get()], true) {
                 order.push(member);
@@ -98,7 +93,7 @@ pub fn relevant(
     Ok(reached.renumbered(&order, count))
 }
 
-/// The fixed objects that block a member at some yaw, in index order.
+/// The fixed objects that block a member at some yaw by the swept finger, in index order.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -111,45 +106,16 @@ pub fn fixed_blockers(
     let mut found: Vec<ObjectIndex> = Vec::new();
     for &member in members.iter().filter(|member| !fixed(**member)) {
         budget.check()?;
-        found.extend(those_blocking(scene, member, shadow, fixed).into_iter().map(|blocker| blocker.object));
+        found.extend(those_blocking(scene, member, &SweptFinger, fixed).into_iter().map(|blocker| blocker.object));
     }
     found.sort_unstable();
     found.dedup();
     Ok(found)
 }
 
-/// The options of an object; none for a fixed one. Options with a fixed member stay: their rules never fire, and locks
-/// need them.
-fn movable_options(scene: &Scene, object: ObjectIndex, options_of: OptionsOf) -> Vec<Vec<ObjectIndex>> {
-    if scene.object(object).fixed() { Vec::new() } else { options_of(scene, object) }
-}
-
-/// The options of a movable object by the swept finger model.
-pub fn swept_finger_options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
-    minimal_options(&blockers(scene, object, shadow), scene.gripper().min_free_width())
-}
-
-/// The obstacles that block a grasp of `object` at some yaw, each with its shadow by `model`, in index order.
-pub fn blockers(scene: &Scene, object: ObjectIndex, model: Shadow) -> Vec<Blocker> {
-    those_blocking(scene, object, model, |_| true)
-}
-
-fn those_blocking(
-    scene: &Scene,
-    object: ObjectIndex,
-    model: Shadow,
-    of_kind: impl Fn(ObjectIndex) -> bool,
-) -> Vec<Blocker> {
-    let gripper = scene.gripper();
-    let disc = scene.object(object).disc();
-    let reach = gripper.corner_distance(disc.radius) + gripper.margin();
-    let mut near: Vec<Blocker> = scene
-        .index()
-        .within(disc.centre, reach)
-        .filter(|(other, _)| *other != object && of_kind(*other))
-        .map(|(other, obstacle)| Blocker { object: other, shadow: model(gripper, &disc, &obstacle, 0.0) })
-        .filter(|blocker| !blocker.shadow.is_empty())
-        .collect();
-    near.sort_unstable_by_key(|blocker| blocker.object);
-    near
+/// The bodies of the rules by which an object can be moved: for each action that the robot has, what must go before. Today
+/// the one action is pick-and-place, and the bodies are the options of the grasp model; none for a fixed object. Options with
+/// a fixed member stay: their rules never fire, and locks need them.
+fn bodies(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Vec<Vec<ObjectIndex>> {
+    if scene.object(object).fixed() { Vec::new() } else { model.options(scene, object) }
 }

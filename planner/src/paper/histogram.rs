@@ -1,7 +1,7 @@
 //! TG-MVFH+: the polar histogram round an object, and the local obstacle sets read off it. Eq. 1 to 4, 8 and 11, with
 //! sectors of one degree (α = 1).
 
-use super::sector::{finger_angle, obstacle_extent};
+use super::angles::{finger_angle, obstacle_extent, radius};
 use crate::scene::{ObjectIndex, Scene, distance};
 
 /// The side of a cell of the grid in which Eq. 1 measures distances, m. The paper gives no figure; whether a sector is
@@ -38,25 +38,25 @@ impl PolarHistogram {
     /// The histogram round `object`, over all obstacles that reach into the ring which its fingers sweep. A yaw
     /// tolerance, which the paper doesn't have, widens each obstacle on both sides.
     pub fn around(scene: &Scene, object: ObjectIndex) -> Self {
-        let (gripper, grasped) = (scene.gripper(), scene.object(object).disc());
-        let outer = grasped.radius + gripper.clearance();
-        let finger = finger_angle(gripper.finger_width(), grasped.radius);
+        let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
+        let outer = radius(&grasped) + gripper.clearance();
+        let finger = finger_angle(gripper.finger_width(), radius(&grasped));
         let mut near: Vec<_> = scene
             .index()
-            .within(grasped.centre, outer + gripper.margin())
+            .within(grasped.at(), outer + gripper.margin())
             .filter(|(other, _)| *other != object)
             .collect();
         near.sort_unstable_by_key(|(other, _)| *other);
         let cells = |length: f64| length / CELL;
         // Eq. 8: the window of w_s cells holds every local obstacle's centre, and Eq. 1 gives 1 at its border.
-        let farthest = near.iter().map(|(_, disc)| distance(disc.centre, grasped.centre)).fold(0.0, f64::max);
+        let farthest = near.iter().map(|(_, disc)| distance(disc.at(), grasped.at())).fold(0.0, f64::max);
         let window = 2.0 * cells(farthest).ceil() + 1.0;
         let a = 1.0 + B * ((window - 1.0) / 2.0) * ((window - 1.0) / 2.0);
         let obstacles = near.into_iter().filter_map(|(other, disc)| {
-            let apart = distance(disc.centre, grasped.centre);
-            let extent = obstacle_extent(outer, apart, disc.radius + gripper.margin())?;
+            let apart = distance(disc.at(), grasped.at());
+            let extent = obstacle_extent(outer, apart, radius(&disc) + gripper.margin())?;
             let total = extent.angle + finger + 2.0 * gripper.yaw_tolerance().max(ROUNDING);
-            let towards = disc.centre - grasped.centre;
+            let towards = disc.at() - grasped.at();
             Some(LocalObstacle {
                 object: other,
                 magnitude: a - B * cells(apart) * cells(apart),
@@ -108,10 +108,4 @@ impl LocalObstacle {
         let apart = 360.0 / f64::from(fingers);
         (0..fingers).map(|finger| self.h(z + f64::from(finger) * apart)).sum()
     }
-}
-
-/// The options of a movable object by the sector model: its local obstacle sets, of which the base keeps the minimal
-/// ones.
-pub fn sector_options(scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
-    PolarHistogram::around(scene, object).local_sets()
 }

@@ -3,24 +3,23 @@
 //! Depth-first search over the next object and its place, with iterative broadening (Ginsberg & Harvey 1992): the width
 //! doubles each round, from the first order and the best places only to more of both.
 
-use nalgebra::Point2;
-
 use super::candidates::{Candidates, PlaceSpec};
 use super::effort::{Effort, EffortMeter, Stop};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::{Grasp, Shadow};
-use crate::scene::{ObjectIndex, Scene, distance};
+use crate::geometry::Grasp;
+use crate::knowledge::GraspModel;
+use crate::scene::{ObjectIndex, Pose, Scene, distance};
 
 /// The task: a set of objects to relocate, with its limits.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Task<'a> {
     /// The scene at the start.
     pub scene: &'a Scene,
     /// Which yaws an obstacle blocks.
-    pub model: Shadow,
+    pub model: &'a dyn GraspModel,
     /// The objects to relocate, in an order in which each becomes graspable.
     pub set: &'a [ObjectIndex],
     /// The most extra relocations beyond those of the set: of objects that only stand in the way of a place, or of
@@ -171,9 +170,9 @@ impl Arranger<'_, '_> {
 
     /// The best places for `object`, as many as the width admits. They are found before any is tried: candidates take
     /// memory by the size of the scene, and a plan may be hundreds of steps deep.
-    fn places(&mut self, object: ObjectIndex, rest: &[ObjectIndex]) -> Result<Vec<(Point2<f64>, Grasp)>, Stop> {
-        let radius = self.table.layout.disc(object).radius;
-        let mut places: Vec<(Point2<f64>, Grasp)> = Vec::new();
+    fn places(&mut self, object: ObjectIndex, rest: &[ObjectIndex]) -> Result<Vec<(Pose, Grasp)>, Stop> {
+        let radius = self.table.layout.footprint(object).circumradius();
+        let mut places: Vec<(Pose, Grasp)> = Vec::new();
         self.table.layout.lift(object, true);
         for (preferred, spread) in [(PREFERRED_GAP, false), (0.0, false), (0.0, true)] {
             if places.len() >= self.width {
@@ -187,7 +186,7 @@ impl Arranger<'_, '_> {
             };
             // Where one place fails, its neighbours usually fail too.
             let near =
-                |places: &[(Point2<f64>, Grasp)], at| places.iter().any(|(other, _)| distance(*other, at) < radius);
+                |places: &[(Pose, Grasp)], at: Pose| places.iter().any(|(other, _)| distance(other.at, at.at) < radius);
             while places.len() < self.width
                 && let Some(place) = self.table.next_place(&mut candidates, object, rest, |at| near(&places, at))?
             {
@@ -207,15 +206,15 @@ impl Arranger<'_, '_> {
         &mut self,
         object: ObjectIndex,
         grasp: Grasp,
-        to: Point2<f64>,
+        to: Pose,
         release: Grasp,
         rest: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
-        let disc = self.table.layout.disc(object);
-        let gap = self.table.layout.gap(object, &disc.at(to));
+        let footprint = self.table.layout.footprint(object);
+        let gap = self.table.layout.gap(object, &footprint.moved_to(to));
         let before = self.table.layout.put(object, to);
-        self.relocations.push(Relocation { object, from: disc.centre, to, grasp, release, gap });
+        self.relocations.push(Relocation { object, from: footprint.pose, to, grasp, release, gap });
         let done = self.step(rest, extra)?;
         if done.is_none() {
             self.relocations.pop();

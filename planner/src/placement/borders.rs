@@ -1,10 +1,12 @@
-//! The borders of free space: one inside the table's edge, one round each obstacle and each keep-out.
+//! The borders of free space, where an object's origin may stand: one inside the table's edge, one round each obstacle and
+//! each keep-out.
 
 use nalgebra::Point2;
 use smallvec::SmallVec;
 
+use super::INSIDE;
 use super::curves::{Circle, Direction, Side};
-use crate::scene::{Rectangle, distance};
+use crate::scene::{Footprint, Gripper, Rectangle, Shape, distance};
 
 /// The curves of one border.
 #[derive(Debug, Clone, Default)]
@@ -14,20 +16,33 @@ pub(super) struct Border {
 }
 
 impl Border {
-    /// Circles round an obstacle, at several distances.
-    pub(super) fn rings(centre: Point2<f64>, radii: impl IntoIterator<Item = f64>) -> Self {
-        let circles = radii.into_iter().map(|radius| Circle { centre, radius }).collect();
+    /// Where the origin of `shape` may stand beside an obstacle: as near as `gap` (m) allows; where the obstacle no longer
+    /// hinders the release; where the shape no longer hinders a grasp of the obstacle.
+    pub(super) fn beside(shape: Shape, obstacle: &Footprint, gripper: &Gripper, gap: f64) -> Self {
+        let (Shape::Disc { radius }, Shape::Disc { radius: others }) = (shape, obstacle.shape);
+        let (own, clear) = (Footprint { shape, ..*obstacle }, gripper.margin() + INSIDE);
+        let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&[
+            radius + others + gap + INSIDE,
+            gripper.corner_distance(&own) + others + clear,
+            gripper.corner_distance(obstacle) + radius + clear,
+        ]);
+        radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
+        let circles = radii.into_iter().map(|radius| Circle { centre: obstacle.at(), radius }).collect();
         Self { circles, sides: SmallVec::new() }
     }
 
-    /// Inside a rectangle, `keep` from its edge. Empty where the rectangle is too small.
-    pub(super) fn within(area: &Rectangle, keep: f64) -> Self {
+    /// Where the origin of `shape` may stand inside a rectangle, `gap` (m) from its edge. Empty where the rectangle is too
+    /// small.
+    pub(super) fn inside(shape: Shape, area: &Rectangle, gap: f64) -> Self {
+        let keep = keep(shape, gap);
         let inset = nalgebra::Vector2::new(keep, keep);
         Self { circles: SmallVec::new(), sides: sides(area.min() + inset, area.max() - inset, 0.0) }
     }
 
-    /// Round a rectangle, `keep` from it: its sides moved outwards, with round corners.
-    pub(super) fn round(area: &Rectangle, keep: f64) -> Self {
+    /// Where the origin of `shape` may stand outside a rectangle, `gap` (m) from it: the sides moved outwards, with round
+    /// corners.
+    pub(super) fn outside(shape: Shape, area: &Rectangle, gap: f64) -> Self {
+        let keep = keep(shape, gap);
         let (min, max) = (area.min(), area.max());
         let corners = [min, max, Point2::new(min.x, max.y), Point2::new(max.x, min.y)];
         let circles = corners.into_iter().map(|centre| Circle { centre, radius: keep }).collect();
@@ -52,11 +67,23 @@ impl Border {
         self.sides.iter().flat_map(|side| side.extremes(point)).for_each(add);
     }
 
+    /// No point of its circles is nearer to `point` than this, m; infinite if there are none.
+    pub(super) fn nearest(&self, point: Point2<f64>) -> f64 {
+        let away = |circle: &Circle| (distance(circle.centre, point) - circle.radius).abs();
+        self.circles.iter().map(away).fold(f64::INFINITY, f64::min)
+    }
+
     /// No point of the border is farther from `point` than this, m.
     pub(super) fn farthest(&self, point: Point2<f64>) -> f64 {
         // Where there are sides and circles, the ends of the sides lie on the circles.
         self.circles.iter().map(|circle| distance(circle.centre, point) + circle.radius).fold(0.0, f64::max)
     }
+}
+
+/// How far the origin of `shape` stays from a border that the shape keeps a gap to, m.
+pub(super) fn keep(shape: Shape, gap: f64) -> f64 {
+    let Shape::Disc { radius } = shape;
+    radius + gap + INSIDE
 }
 
 /// The sides of the rectangle, moved outwards by `keep`.

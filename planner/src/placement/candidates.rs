@@ -8,13 +8,12 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use nalgebra::{Point2, Vector2};
-use smallvec::SmallVec;
 
-use super::borders::Border;
+use super::borders::{Border, keep};
 use super::effort::{EffortMeter, Stop};
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
-use crate::scene::{Disc, ObjectIndex, distance};
+use crate::scene::{Footprint, ObjectIndex, Pose, distance};
 
 /// Places that can be generated for the cost of trying one.
 const PLACES_PER_EFFORT: usize = 32;
@@ -33,11 +32,12 @@ pub(super) struct PlaceSpec {
 /// Places in the order of their score.
 pub(super) struct Candidates {
     spec: PlaceSpec,
-    radius: f64,
+    /// The object where it stood.
+    own: Footprint,
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
     table: Border,
-    /// The largest radius of an obstacle's circles, m.
+    /// How far an obstacle's border reaches from the obstacle's origin, at most, m.
     span: f64,
     /// Per obstacle whether its border is expanded: the points where it meets other borders are in the heap.
     expanded: Vec<bool>,
@@ -98,20 +98,20 @@ impl Candidates {
     /// Adds places round the old one, denser near it. Often a step aside is enough to let a finger pass, and the
     /// borders of shadows are not among the curves.
     fn add_spiral(&mut self, layout: &Layout<'_>) {
-        let reach = 2.0 * layout.scene().gripper().corner_distance(self.radius);
+        let reach = 2.0 * layout.scene().gripper().corner_distance(&self.own);
         scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
     }
 
     fn empty(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let scene = layout.scene();
-        let own = layout.disc(spec.object);
+        let own = layout.footprint(spec.object);
         let origin = match spec.objective {
-            Objective::FarFromTarget => scene.object(scene.target()).disc().centre,
-            Objective::ShortMoves => own.centre,
+            Objective::FarFromTarget => scene.object(scene.target()).footprint().at(),
+            Objective::ShortMoves => own.at(),
         };
         Self {
             spec,
-            radius: own.radius,
+            own,
             origin,
             table: Border::default(),
             span: 0.0,
@@ -135,24 +135,20 @@ impl Candidates {
     ///
     /// # Errors
     /// [`Stop`] when effort or budget end: many borders may be expanded before the next place.
-    pub(super) fn next(
-        &mut self,
-        layout: &Layout<'_>,
-        meter: &mut EffortMeter<'_>,
-    ) -> Result<Option<Point2<f64>>, Stop> {
+    pub(super) fn next(&mut self, layout: &Layout<'_>, meter: &mut EffortMeter<'_>) -> Result<Option<Pose>, Stop> {
         while let Some(entry) = self.heap.pop() {
             let before = self.heap.len();
             match entry.kind {
-                Kind::Place => return Ok(Some(entry.at)),
+                Kind::Place => return Ok(Some(entry.at.into())),
                 Kind::Obstacle(object) => {
                     self.expanded[object.get()] = true;
-                    let (border, reach) = self.round_obstacle(layout, object);
-                    self.expand(layout, &border, layout.disc(object).centre, reach);
+                    let (obstacle, border) = (layout.footprint(object).at(), self.beside(layout, object));
+                    self.expand(layout, &border, obstacle, border.farthest(obstacle));
                 }
                 Kind::KeepOut(at) => {
                     self.expanded_areas[at] = true;
                     let area = layout.scene().table().keep_out()[at];
-                    let border = Border::round(&area, self.edge());
+                    let border = Border::outside(self.own.shape, &area, self.spec.edge_gap);
                     let middle = nalgebra::center(&area.min(), &area.max());
                     self.expand(layout, &border, middle, border.farthest(middle));
                 }
@@ -164,15 +160,20 @@ impl Candidates {
     }
 
     /// True if the object keeps all gaps at `at`.
-    pub(super) fn fits(&self, layout: &Layout<'_>, at: Point2<f64>) -> bool {
-        let disc = Disc { centre: at, radius: self.radius };
+    pub(super) fn fits(&self, layout: &Layout<'_>, at: Pose) -> bool {
+        let place = self.own.moved_to(at);
         let table = layout.scene().table();
         // Curves run a whole INSIDE away from the bound: half of it absorbs their rounding.
         let edge_gap = self.spec.edge_gap + INSIDE / 2.0;
         let gap = self.spec.gap + INSIDE / 2.0;
-        table.top().inner_gap(&disc) >= edge_gap
-            && table.keep_out().iter().all(|area| area.outer_gap(&disc) >= edge_gap)
-            && layout.near(at, self.radius + gap).next().is_none()
+        place.gap_inside(&table.top()) >= edge_gap
+            && table.keep_out().iter().all(|area| place.gap_outside(area) >= edge_gap)
+            && self.stands_free(layout, &place, gap)
+    }
+
+    /// True if no other object is nearer to `place` than `gap`, m.
+    fn stands_free(&self, layout: &Layout<'_>, place: &Footprint, gap: f64) -> bool {
+        layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.gap(&other) >= gap)
     }
 
     fn score(&self, at: Point2<f64>) -> f64 {
@@ -187,13 +188,13 @@ impl Candidates {
         self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
     }
 
-    /// The distance of the object's centre from the table's edge and from keep-outs, m.
+    /// The distance of the object's origin from the table's edge and from keep-outs, m.
     fn edge(&self) -> f64 {
-        self.radius + self.spec.edge_gap + INSIDE
+        keep(self.own.shape, self.spec.edge_gap)
     }
 
     fn add_table(&mut self, layout: &Layout<'_>) {
-        self.table = Border::within(&layout.scene().table().top(), self.edge());
+        self.table = Border::inside(self.own.shape, &layout.scene().table().top(), self.spec.edge_gap);
         let (table, origin) = (self.table.clone(), self.origin);
         table.extremes(origin, |at| self.add_place(at));
     }
@@ -202,8 +203,10 @@ impl Candidates {
         let keep = self.edge();
         for (at, area) in layout.scene().table().keep_out().iter().enumerate() {
             let score = match self.spec.objective {
-                Objective::FarFromTarget => Border::round(area, keep).farthest(self.origin),
-                Objective::ShortMoves => -area.outer_gap(&Disc { centre: self.origin, radius: keep }).max(0.0),
+                Objective::FarFromTarget => {
+                    Border::outside(self.own.shape, area, self.spec.edge_gap).farthest(self.origin)
+                }
+                Objective::ShortMoves => -(area.distance(self.origin) - keep).max(0.0),
             };
             self.heap.push(Entry { score, at: area.min(), kind: Kind::KeepOut(at) });
         }
@@ -211,40 +214,20 @@ impl Candidates {
 
     fn add_obstacles(&mut self, layout: &Layout<'_>) {
         for object in layout.scene().indices().filter(|&object| !layout.is_lifted(object)) {
-            let centre = layout.disc(object).centre;
-            let apart = distance(centre, self.origin);
-            let mut score = f64::NEG_INFINITY;
-            for radius in self.radii(layout, object) {
-                self.span = self.span.max(radius);
-                score = score.max(match self.spec.objective {
-                    Objective::FarFromTarget => apart + radius,
-                    Objective::ShortMoves => -(apart - radius).abs(),
-                });
-            }
-            self.heap.push(Entry { score, at: centre, kind: Kind::Obstacle(object) });
+            let (at, border) = (layout.footprint(object).at(), self.beside(layout, object));
+            self.span = self.span.max(border.farthest(at));
+            let score = match self.spec.objective {
+                Objective::FarFromTarget => border.farthest(self.origin),
+                Objective::ShortMoves => -border.nearest(self.origin),
+            };
+            self.heap.push(Entry { score, at, kind: Kind::Obstacle(object) });
         }
     }
 
-    /// The radii of the circles round an obstacle: as near as the gap allows; where it no longer hinders the release;
-    /// where the object no longer hinders a grasp of the obstacle.
-    fn radii(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> SmallVec<[f64; 3]> {
+    /// The border beside an obstacle.
+    fn beside(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> Border {
         let gripper = layout.scene().gripper();
-        let radius = layout.disc(obstacle).radius;
-        let clear = gripper.margin() + INSIDE;
-        let mut radii: SmallVec<[f64; 3]> = SmallVec::from_buf([
-            self.radius + radius + self.spec.gap + INSIDE,
-            gripper.corner_distance(self.radius) + radius + clear,
-            gripper.corner_distance(radius) + self.radius + clear,
-        ]);
-        radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
-        radii
-    }
-
-    /// The border round an obstacle, and its largest radius.
-    fn round_obstacle(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> (Border, f64) {
-        let radii = self.radii(layout, obstacle);
-        let reach = radii.iter().copied().fold(0.0, f64::max);
-        (Border::rings(layout.disc(obstacle).centre, radii), reach)
+        Border::beside(self.own.shape, &layout.footprint(obstacle), gripper, self.spec.gap)
     }
 
     /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
@@ -254,13 +237,12 @@ impl Candidates {
         border.extremes(self.origin, &mut add);
         border.meet(&self.table, &mut add);
         for (other, _) in layout.near(centre, reach + self.span).filter(|(other, _)| !self.expanded[other.get()]) {
-            border.meet(&self.round_obstacle(layout, other).0, &mut add);
+            border.meet(&self.beside(layout, other), &mut add);
         }
-        let within_reach = Disc { centre, radius: reach + self.edge() };
         for (area, _) in layout.scene().table().keep_out().iter().zip(&self.expanded_areas).filter(|(_, done)| !**done)
         {
-            if area.outer_gap(&within_reach) <= 0.0 {
-                border.meet(&Border::round(area, self.edge()), &mut add);
+            if area.distance(centre) - (reach + self.edge()) <= 0.0 {
+                border.meet(&Border::outside(self.own.shape, area, self.spec.edge_gap), &mut add);
             }
         }
         places.into_iter().for_each(|at| self.add_place(at));
@@ -289,7 +271,7 @@ const MANY: usize = 1 << 17;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::shadow;
+    use crate::knowledge::SweptFinger;
     use crate::scene::scenes::TestScene;
 
     #[test]
@@ -297,7 +279,7 @@ mod tests {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
         let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
-        let mut candidates = Candidates::empty(&Layout::new(&scene, shadow), spec);
+        let mut candidates = Candidates::empty(&Layout::new(&scene, &SweptFinger), spec);
         let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
         let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
         let many = u32::try_from(MANY).unwrap();

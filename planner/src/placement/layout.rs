@@ -2,23 +2,24 @@
 
 use nalgebra::Point2;
 
-use crate::geometry::{ArcSet, Grasp, Shadow, widest_grasp};
-use crate::scene::{Disc, Gripper, ObjectIndex, Scene};
+use crate::geometry::{ArcSet, Grasp, widest_grasp};
+use crate::knowledge::GraspModel;
+use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
 
 /// The scene after some moves, with some objects lifted off the table.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Layout<'a> {
     scene: &'a Scene,
-    model: Shadow,
+    model: &'a dyn GraspModel,
     /// Per object its new place, if it was moved.
-    place: Vec<Option<Point2<f64>>>,
+    place: Vec<Option<Pose>>,
     moved: Vec<ObjectIndex>,
     lifted: Vec<bool>,
 }
 
 impl<'a> Layout<'a> {
     /// The scene as it is; `model` says which yaws are free.
-    pub fn new(scene: &'a Scene, model: Shadow) -> Self {
+    pub fn new(scene: &'a Scene, model: &'a dyn GraspModel) -> Self {
         let count = scene.objects().len();
         Self { scene, model, place: vec![None; count], moved: Vec::new(), lifted: vec![false; count] }
     }
@@ -28,14 +29,14 @@ impl<'a> Layout<'a> {
     }
 
     /// Where an object stands.
-    pub fn disc(&self, object: ObjectIndex) -> Disc {
-        let disc = self.scene.object(object).disc();
-        self.place[object.get()].map_or(disc, |centre| disc.at(centre))
+    pub fn footprint(&self, object: ObjectIndex) -> Footprint {
+        let footprint = self.scene.object(object).footprint();
+        self.place[object.get()].map_or(footprint, |pose| footprint.moved_to(pose))
     }
 
     /// Puts an object somewhere. Returns the place to which it was moved before, if it was.
-    pub fn put(&mut self, object: ObjectIndex, centre: Point2<f64>) -> Option<Point2<f64>> {
-        let before = self.place[object.get()].replace(centre);
+    pub fn put(&mut self, object: ObjectIndex, pose: Pose) -> Option<Pose> {
+        let before = self.place[object.get()].replace(pose);
         if before.is_none() {
             self.moved.push(object);
         }
@@ -43,7 +44,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Undoes the last [`Layout::put`] of this object.
-    pub(super) fn take_back(&mut self, object: ObjectIndex, before: Option<Point2<f64>>) {
+    pub(super) fn take_back(&mut self, object: ObjectIndex, before: Option<Pose>) {
         self.place[object.get()] = before;
         if before.is_none() {
             self.moved.retain(|&other| other != object);
@@ -59,47 +60,41 @@ impl<'a> Layout<'a> {
     }
 
     /// The objects nearer than `reach` (edge to point, m) to `centre`, in a fixed order.
-    pub(super) fn near(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
+    pub(super) fn near(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Footprint)> + '_ {
         let in_place =
             self.scene.index().within(centre, reach).filter(|(object, _)| self.place[object.get()].is_none());
-        let moved = self.moved.iter().map(|&object| (object, self.disc(object)));
-        let moved = moved.filter(move |(_, disc)| {
-            let (apart, far) = (disc.centre - centre, reach + disc.radius);
-            apart.norm_squared() < far * far
-        });
+        let moved = self.moved.iter().map(|&object| (object, self.footprint(object)));
+        let moved = moved.filter(move |(_, footprint)| footprint.comes_within(centre, reach));
         in_place.chain(moved).filter(|(object, _)| !self.is_lifted(*object))
     }
 
-    /// The blocked yaws of a grasp or release of `object` at `disc`. Fingers keep the margin and `extra` (m) from all
+    /// The blocked yaws of a grasp or release of `object` at `place`. Fingers keep the margin and `extra` (m) from all
     /// other objects.
-    pub fn blocked(&self, object: ObjectIndex, disc: &Disc, extra: f64) -> ArcSet {
+    pub fn blocked(&self, object: ObjectIndex, place: &Footprint, extra: f64) -> ArcSet {
         let gripper = self.scene.gripper();
-        let others = self.near(disc.centre, reach(gripper, disc) + extra).filter(|(other, _)| *other != object);
-        let shadows: Vec<ArcSet> = others.map(|(_, other)| (self.model)(gripper, disc, &other, extra)).collect();
+        let others =
+            self.near(place.at(), self.model.reach(gripper, place) + extra).filter(|(other, _)| *other != object);
+        let shadows: Vec<ArcSet> = others.map(|(_, other)| self.model.shadow(gripper, place, &other, extra)).collect();
         ArcSet::union(gripper.period(), &shadows)
     }
 
     /// The widest grasp of an object where it stands.
     pub fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
-        widest_grasp(self.scene.gripper(), &self.blocked(object, &self.disc(object), 0.0))
+        widest_grasp(self.scene.gripper(), &self.blocked(object, &self.footprint(object), 0.0))
     }
 
-    /// The least distance from `object` at `disc` to another object, edge to edge, m; infinite if there is none.
-    pub fn gap(&self, object: ObjectIndex, disc: &Disc) -> f64 {
+    /// The least distance from `object` at `place` to another object, edge to edge, m; infinite if there is none.
+    pub fn gap(&self, object: ObjectIndex, place: &Footprint) -> f64 {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
-        others.map(|other| disc.gap(&self.disc(other))).fold(f64::INFINITY, f64::min)
+        others.map(|other| place.gap(&self.footprint(other))).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// The distance from the centre of `disc` within which other objects can block its grasp, m.
-fn reach(gripper: &Gripper, disc: &Disc) -> f64 {
-    gripper.corner_distance(disc.radius) + gripper.margin()
 }
 
 /// The widest grasp of an object in the scene at the start.
-pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: Shadow) -> Option<Grasp> {
-    let (gripper, disc) = (scene.gripper(), scene.object(object).disc());
-    let others = scene.index().within(disc.centre, reach(gripper, &disc)).filter(|(other, _)| *other != object);
-    let shadows: Vec<ArcSet> = others.map(|(_, other)| model(gripper, &disc, &other, 0.0)).collect();
+pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Option<Grasp> {
+    let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
+    let others =
+        scene.index().within(grasped.at(), model.reach(gripper, &grasped)).filter(|(other, _)| *other != object);
+    let shadows: Vec<ArcSet> = others.map(|(_, other)| model.shadow(gripper, &grasped, &other, 0.0)).collect();
     widest_grasp(gripper, &ArcSet::union(gripper.period(), &shadows))
 }

@@ -18,8 +18,7 @@ pub use effort::Effort;
 pub use layout::{Layout, grasp_in_place};
 
 use crate::geometry::Grasp;
-use crate::scene::ObjectIndex;
-use nalgebra::Point2;
+use crate::scene::{ObjectIndex, Pose};
 
 /// Which of the free places a relocated object goes to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -47,10 +46,10 @@ impl Objective {
 pub struct Relocation {
     /// The object that is moved; never the target, never a fixed object.
     pub object: ObjectIndex,
-    /// Its centre before, m.
-    pub from: Point2<f64>,
-    /// Its centre after, m.
-    pub to: Point2<f64>,
+    /// Where it stood.
+    pub from: Pose,
+    /// Where it is put.
+    pub to: Pose,
     /// How it is picked.
     pub grasp: Grasp,
     /// How it is let go.

@@ -1,13 +1,11 @@
 //! A layout with a meter: each test of a grasp or a place costs effort.
 
-use nalgebra::Point2;
-
 use super::INSIDE;
 use super::candidates::Candidates;
 use super::effort::{BEAT, EffortMeter, Stop};
 use super::layout::Layout;
 use crate::geometry::{Grasp, widest_grasp};
-use crate::scene::{Disc, ObjectIndex, distance};
+use crate::scene::{Footprint, ObjectIndex, Pose, distance};
 
 /// The effort of one search for a free yaw, in tried places.
 const GRASP_EFFORT: usize = 4;
@@ -39,8 +37,8 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         candidates: &mut Candidates,
         object: ObjectIndex,
         rest: &[ObjectIndex],
-        skip: impl Fn(Point2<f64>) -> bool,
-    ) -> Result<Option<(Point2<f64>, Grasp)>, Stop> {
+        skip: impl Fn(Pose) -> bool,
+    ) -> Result<Option<(Pose, Grasp)>, Stop> {
         while let Some(at) = candidates.next(&self.layout, &mut self.meter)? {
             if !skip(at)
                 && let Some(release) = self.release(candidates, object, at, rest)?
@@ -57,14 +55,14 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         candidates: &Candidates,
         object: ObjectIndex,
         rest: &[ObjectIndex],
-        place: (Point2<f64>, Grasp),
-    ) -> Result<(Point2<f64>, Grasp), Stop> {
-        let (mut free, mut blocked) = (place, self.layout.disc(object).centre);
+        place: (Pose, Grasp),
+    ) -> Result<(Pose, Grasp), Stop> {
+        let (mut free, mut blocked) = (place, self.layout.footprint(object).at());
         for _ in 0..HALVINGS {
-            let middle = nalgebra::center(&free.0, &blocked);
+            let middle = Pose { at: nalgebra::center(&free.0.at, &blocked) };
             match self.release(candidates, object, middle, rest)? {
                 Some(release) => free = (middle, release),
-                None => blocked = middle,
+                None => blocked = middle.at,
             }
         }
         Ok(free)
@@ -75,37 +73,41 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         &mut self,
         candidates: &Candidates,
         object: ObjectIndex,
-        at: Point2<f64>,
+        at: Pose,
         rest: &[ObjectIndex],
     ) -> Result<Option<Grasp>, Stop> {
         self.meter.spend(1 + self.layout.scene().table().keep_out().len() / BEAT)?;
         if !candidates.fits(&self.layout, at) {
             return Ok(None);
         }
-        let disc = self.layout.disc(object).at(at);
+        let place = self.layout.footprint(object).moved_to(at);
         let gripper = self.layout.scene().gripper();
-        if widest_grasp(gripper, &self.layout.blocked(object, &disc, INSIDE)).is_none() {
+        if widest_grasp(gripper, &self.layout.blocked(object, &place, INSIDE)).is_none() {
             return Ok(None);
         }
-        let release = widest_grasp(gripper, &self.layout.blocked(object, &disc, 0.0));
+        let release = widest_grasp(gripper, &self.layout.blocked(object, &place, 0.0));
         self.meter.spend(GRASP_EFFORT)?;
-        Ok(if release.is_some() && self.leaves_the_rest_free(object, &disc, rest)? { release } else { None })
+        Ok(if release.is_some() && self.leaves_the_rest_free(object, &place, rest)? { release } else { None })
     }
 
-    /// True if, with the object at `disc`, the rest can still be lifted one after the other and the target grasped.
-    fn leaves_the_rest_free(&mut self, object: ObjectIndex, disc: &Disc, rest: &[ObjectIndex]) -> Result<bool, Stop> {
+    /// True if, with the object at `place`, the rest can still be lifted one after the other and the target grasped.
+    fn leaves_the_rest_free(
+        &mut self,
+        object: ObjectIndex,
+        place: &Footprint,
+        rest: &[ObjectIndex],
+    ) -> Result<bool, Stop> {
         let target = self.layout.scene().target();
         let gripper = self.layout.scene().gripper();
         let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
-            let grasped = layout.disc(other);
-            let reach = gripper.corner_distance(grasped.radius) + gripper.margin() + disc.radius;
-            distance(grasped.centre, disc.centre) < reach
+            let grasped = layout.footprint(other);
+            distance(grasped.at(), place.at()) < gripper.reach(&grasped) + place.circumradius()
         };
         if !rest.iter().chain([&target]).any(|&other| hinders(&self.layout, other)) {
             return Ok(true);
         }
         self.layout.lift(object, false);
-        let before = self.layout.put(object, disc.centre);
+        let before = self.layout.put(object, place.pose);
         let free = self.rest_can_be_lifted(rest);
         self.layout.take_back(object, before);
         self.layout.lift(object, true);

@@ -1,12 +1,11 @@
-//! Every answer is checked before it is served.
+//! Every statement is checked before it is served.
 
-use super::answer::{Answer, Statistics, Unplanned, Verdict};
-use super::check::{Checker, Fault, FaultCode, MAX_FAULTS, Report};
-use super::claim::Claim;
-use super::warning::Warning;
+use super::stated::ids;
 use crate::budget::Budget;
+use crate::check::{Checker, FaultCode, Report};
 use crate::knowledge::NoBase;
 use crate::scene::Scene;
+use crate::statement::Statement;
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -20,135 +19,60 @@ pub enum PlanError {
     TooDense,
 }
 
-/// The part of the verdict that the checker confirms. Its scene may have any target. Parts not confirmed in time are
-/// dropped.
+/// The part of the statement that the checker confirms in time, with the bound that it computed. Its scene may have any
+/// target.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if any part does not hold.
-pub(super) fn confirm(
+pub(crate) fn confirm(
     checker: &mut Checker<'_>,
     scene: &Scene,
-    verdict: Verdict,
+    stated: Statement,
     budget: &Budget<'_>,
-) -> Result<Verdict, PlanError> {
-    let (verdict, report) = checked(checker, scene, verdict, budget);
-    if report.faults.iter().any(|fault| !is_late(fault.code)) {
+) -> Result<Statement, PlanError> {
+    let report = checker.check_for(scene, &stated, budget);
+    if report.faults.iter().any(|fault| !fault.code.means_late()) {
         return Err(PlanError::Refused(report));
     }
-    let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
-    let late = unconfirmed(FaultCode::LockUnconfirmed) || unconfirmed(FaultCode::ReplayUnconfirmed);
-    let mut verdict = proven_part(verdict, &report);
-    if late {
-        let bound = verdict.bound_mut().map(core::mem::take).unwrap_or_default();
-        verdict = Verdict::TimedOut(Unplanned { bound: Some(bound), needed: None });
-    }
-    Ok(verdict)
-}
-
-/// The same for an answer by the paper's methods: a step that does not hold becomes a warning. A proof that does not
-/// hold is refused, since proofs are our own. `setting` is named by a deadlock that can't be confirmed.
-///
-/// # Errors
-/// [`PlanError::Refused`] if a landmark or a lock does not hold.
-pub(super) fn confirm_unproven(
-    scene: &Scene,
-    verdict: Verdict,
-    setting: &'static str,
-    warnings: &mut Vec<Warning>,
-    budget: &Budget<'_>,
-) -> Result<Verdict, PlanError> {
-    if verdict == Verdict::Deadlock(None) {
-        return Ok(verdict);
-    }
-    let (verdict, report) = checked(&mut Checker::new(scene), scene, verdict, budget);
-    let ours = |fault: &Fault| !is_late(fault.code) && is_of_a_proof(fault.code);
-    if report.faults.iter().any(ours) {
-        return Err(PlanError::Refused(report));
-    }
-    let mut verdict = proven_part(verdict, &report);
-    let seen = |code| report.faults.iter().any(|fault| fault.code == code);
-    // A list of faults that was cut off may lack those of the proofs.
-    let cut = report.faults.len() >= MAX_FAULTS;
-    match &mut verdict {
-        Verdict::Relocate(plan) if cut => plan.bound = None,
-        Verdict::Deadlock(proof) if cut || seen(FaultCode::LockUnconfirmed) => {
-            *proof = None;
-            warnings.push(Warning::UnprovenDeadlock { enough: None, setting });
+    let confirmed = confirmed_part(scene, stated, &report);
+    Ok(if report.has(FaultCode::LockUnconfirmed) || report.has(FaultCode::ReplayUnconfirmed) {
+        // A deadlock states no bound.
+        let trivial = Statement::timed_out();
+        let (lower_bound, landmarks) = (confirmed.lower_bound, confirmed.landmarks);
+        Statement {
+            lower_bound: lower_bound.or(trivial.lower_bound),
+            landmarks: landmarks.or(trivial.landmarks.clone()),
+            ..trivial
         }
-        _ => {}
-    }
-    if seen(FaultCode::WrongNeeded)
-        && let Verdict::NoSpace(unplanned) | Verdict::TimedOut(unplanned) = &mut verdict
-    {
-        unplanned.needed = None;
-    }
-    let told = |fault: &Fault| !is_late(fault.code) || fault.code == FaultCode::ReplayUnconfirmed;
-    warnings.extend(report.faults.into_iter().filter(told).map(Warning::Faulty));
-    Ok(verdict)
+    } else {
+        confirmed
+    })
 }
 
-fn checked(checker: &mut Checker<'_>, scene: &Scene, verdict: Verdict, budget: &Budget<'_>) -> (Verdict, Report) {
-    let answer = Answer { verdict, warnings: Vec::new(), statistics: Statistics::default() };
-    let mut claim = Claim::of(scene, &answer);
-    // A search that was cut off may have landmarks that prove more than it could compute: not a fault, but a better
-    // bound.
-    claim.optimal.take_if(|optimal| !*optimal);
-    let report = checker.check_for(scene, &claim, budget);
-    (answer.verdict, report)
-}
-
-/// The verdict with the confirmed part of the bound, and the needed objects only if confirmed.
-fn proven_part(mut verdict: Verdict, report: &Report) -> Verdict {
-    let unconfirmed = |code| report.faults.iter().any(|fault| fault.code == code);
-    if let Some(bound) = verdict.bound_mut() {
+/// The statement with the confirmed part of the bound, and the needed objects only if confirmed.
+pub(crate) fn confirmed_part(scene: &Scene, stated: Statement, report: &Report) -> Statement {
+    let mut confirmed = stated;
+    if confirmed.lower_bound.is_some() {
         // Landmarks that were not checked in time are dropped, even if the rest proves the bound.
         if report.interrupted {
-            bound.landmarks.clone_from(&report.sound_landmarks);
+            confirmed.landmarks = Some(report.sound_landmarks.iter().map(|landmark| ids(scene, landmark)).collect());
         }
-        bound.cost = report.proven_bound;
+        confirmed.lower_bound = Some(report.proven_bound);
+        confirmed.optimal = confirmed.cost.map(|cost| cost == report.proven_bound);
     }
-    if unconfirmed(FaultCode::NeededUnconfirmed)
-        && let Verdict::NoSpace(unplanned) | Verdict::TimedOut(unplanned) = &mut verdict
-    {
-        unplanned.needed = None;
+    if report.has(FaultCode::NeededUnconfirmed) {
+        confirmed.needed = None;
     }
-    verdict
-}
-
-/// True if the code refutes a bound or a lock.
-fn is_of_a_proof(code: FaultCode) -> bool {
-    matches!(
-        code,
-        FaultCode::BoundUnproven
-            | FaultCode::BadLandmark
-            | FaultCode::LandmarkRefuted
-            | FaultCode::LockWithoutTarget
-            | FaultCode::LockMemberFree
-            | FaultCode::CoreOutsideBlocked
-            | FaultCode::UnknownObject
-            | FaultCode::MissingPart
-            | FaultCode::UnexpectedPart
-            | FaultCode::WrongCost
-    )
-}
-
-/// True if the code means that time ran out, not that the answer is wrong.
-fn is_late(code: FaultCode) -> bool {
-    matches!(
-        code,
-        FaultCode::BoundUnconfirmed
-            | FaultCode::LockUnconfirmed
-            | FaultCode::NeededUnconfirmed
-            | FaultCode::ReplayUnconfirmed
-    )
+    confirmed
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{LowerBound, Plan, Settings, plan};
+    use crate::cost::Cost;
+    use crate::plan::{Settings, plan};
     use crate::scene::scenes::TestScene;
-    use crate::search::LeastSet;
+    use crate::search::SILENT;
 
     #[test]
     fn what_the_search_knows_but_cannot_show_is_not_served() {
@@ -161,21 +85,19 @@ mod tests {
             .disc("west", 0.87, 1.0, 0.08)
             .disc("south", 1.0, 0.87, 0.08)
             .build("cup");
-        let answer = plan(&scene, &Settings::default(), &Budget::unlimited()).unwrap();
-        let Verdict::Relocate(Plan { bound: Some(proof), .. }) = &answer.verdict else { panic!("{answer:?}") };
-        assert_eq!((answer.optimal(), proof.cost), (Some(true), 2));
-        let served = |bound: LowerBound| {
-            let mut verdict = answer.verdict.clone();
-            *verdict.bound_mut().unwrap() = bound;
-            confirm(&mut Checker::new(&scene), &scene, verdict, &Budget::unlimited())
-        };
+        let answer = plan(&scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap();
+        let two = Some(Cost::new(2));
+        let stated = answer.statement;
+        assert_eq!((stated.optimal, stated.cost, stated.lower_bound), (Some(true), two, two));
         // Without one landmark that the bound needs.
-        let landmarks = proof.landmarks[..1].to_vec();
-        let known = LeastSet { bound: 2, proven: 1, landmarks: landmarks.clone(), ..LeastSet::default() };
-        let verdict = served(LowerBound::from(&known)).unwrap();
-        let Verdict::Relocate(plan) = &verdict else { panic!("{verdict:?}") };
-        assert_eq!((plan.cost(), plan.optimal()), (2, false));
-        assert_eq!(plan.bound, Some(LowerBound { cost: 1, landmarks: landmarks.clone() }));
-        assert!(matches!(served(LowerBound { cost: 2, landmarks }), Err(PlanError::Refused(_))));
+        let landmarks = stated.landmarks.clone().map(|mut landmarks| landmarks.drain(..1).collect::<Vec<_>>());
+        let served = |lower_bound, optimal| {
+            let less = Statement { lower_bound, optimal, landmarks: landmarks.clone(), ..stated.clone() };
+            confirm(&mut Checker::new(&scene), &scene, less, &Budget::unlimited())
+        };
+        let one = Some(Cost::new(1));
+        let honest = served(one, None).unwrap();
+        assert_eq!((honest.cost, honest.lower_bound, honest.optimal), (two, one, Some(false)));
+        assert!(matches!(served(two, Some(true)), Err(PlanError::Refused(_))));
     }
 }

@@ -1,10 +1,10 @@
 //! Alternates relocation sets with placement, cheapest first.
 
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::Shadow;
-use crate::knowledge::KnowledgeBase;
+use crate::cost::Cost;
+use crate::knowledge::{GraspModel, KnowledgeBase};
 use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::Scene;
 use crate::search::{Alternatives, Derivation};
 
 /// The effort for one answer, reached only where space is very short: half a second, or some seconds where a large disc
@@ -14,19 +14,19 @@ const MAX_EFFORT: u32 = 1_000_000;
 const MAX_EFFORT_PER_SET: u32 = 100_000;
 /// Extra effort per relocation, for both limits: a long plan needs many places, each found among the earlier ones.
 const EFFORT_PER_STEP: u32 = 10_000;
-/// The most relocations tried beyond the size of the least set.
-const MAX_EXTRA: usize = 3;
+/// The most relocations tried beyond the cost of the least set.
+const MAX_EXTRA: u64 = 3;
 /// The most sets tried.
 const MAX_SETS: usize = 32;
 /// The share of the time in which further sets are searched.
 const SETS_SHARE: f64 = 0.5;
 
 /// The placement problem.
-pub(super) struct Question<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) base: &'a KnowledgeBase,
-    pub(super) model: Shadow,
-    pub(super) objective: Objective,
+pub(crate) struct Question<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) base: &'a KnowledgeBase,
+    pub(crate) model: &'a dyn GraspModel,
+    pub(crate) objective: Objective,
 }
 
 /// The cheapest arrangement found: least sets first, then larger ones and extra moves together. `None` once the effort
@@ -34,12 +34,12 @@ pub(super) struct Question<'a> {
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub(super) fn arrange_least(
+pub(crate) fn arrange_least(
     question: &Question<'_>,
     first: Derivation,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    let cheapest = first.order.len();
+    let cheapest = first.cost();
     let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
     let more = |budget: &Budget<'_>| alternatives.next(budget);
     Coupling {
@@ -58,13 +58,13 @@ pub(super) fn arrange_least(
 struct Coupling<'q, M> {
     question: &'q Question<'q>,
     budget: &'q Budget<'q>,
-    /// The size of the least set.
-    cheapest: usize,
-    /// The next set, no smaller than any before. After an interruption it may be called again.
+    /// The cost of the least set.
+    cheapest: Cost,
+    /// The next set, no cheaper than any before. After an interruption it may be called again.
     more: M,
     /// A set kept for a later cost.
     next: Option<Derivation>,
-    tried: Vec<Vec<ObjectIndex>>,
+    tried: Vec<Derivation>,
     effort: Effort,
 }
 
@@ -95,18 +95,19 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
     fn round(&mut self, for_sets: &Budget<'_>) -> Result<Round, Interrupted> {
         let earlier = self.tried.len();
         let mut cut = self.next.is_none() && self.fetch(for_sets).is_err();
-        for cost in self.cheapest..=self.cheapest + MAX_EXTRA {
-            let smaller = self.tried.len();
+        for extra in 0..=MAX_EXTRA {
+            let cost = self.cheapest + Cost::new(extra);
+            let cheaper = self.tried.len();
             while self.tried.len() < MAX_SETS
-                && let Some(derivation) = self.next.take_if(|derivation| derivation.order.len() <= cost)
+                && let Some(derivation) = self.next.take_if(|derivation| derivation.cost() <= cost)
             {
-                self.tried.push(derivation.order);
+                self.tried.push(derivation);
                 if let Some(found) = self.attempt(self.tried.len() - 1, cost)? {
                     return Ok(Round::Found(found));
                 }
                 cut = self.fetch(for_sets).is_err();
             }
-            for set in earlier..smaller {
+            for set in earlier..cheaper {
                 if let Some(found) = self.attempt(set, cost)? {
                     return Ok(Round::Found(found));
                 }
@@ -123,7 +124,7 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
         Ok(())
     }
 
-    fn attempt(&mut self, set: usize, cost: usize) -> Result<Option<Arrangement>, Interrupted> {
+    fn attempt(&mut self, set: usize, cost: Cost) -> Result<Option<Arrangement>, Interrupted> {
         attempt(self.question, &self.tried[set], cost, &mut self.effort, self.budget)
     }
 }
@@ -132,14 +133,15 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
 /// those that are best by another one are tried: a worse place is better than one more relocation.
 fn attempt(
     question: &Question<'_>,
-    set: &[ObjectIndex],
-    cost: usize,
+    set: &Derivation,
+    cost: Cost,
     effort: &mut Effort,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     for objective in [question.objective, question.objective.other()] {
         let Question { scene, model, .. } = *question;
-        let task = Task { scene, model, set, extra: cost - set.len(), objective };
+        let extra = cost.beyond(set.cost());
+        let task = Task { scene, model, set: &set.order, extra, objective };
         let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(cost)));
         let found = arrange(&task, &mut part, budget)?;
         effort.join(part);
@@ -154,16 +156,17 @@ fn attempt(
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub(super) fn arrange_one(
+pub(crate) fn arrange_one(
     question: &Question<'_>,
-    set: &[ObjectIndex],
+    set: &Derivation,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
-    attempt(question, set, set.len(), &mut Effort::new(MAX_EFFORT.saturating_add(for_steps(set.len()))), budget)
+    let mut effort = Effort::new(MAX_EFFORT.saturating_add(for_steps(set.cost())));
+    attempt(question, set, set.cost(), &mut effort, budget)
 }
 
-fn for_steps(steps: usize) -> u32 {
-    EFFORT_PER_STEP.saturating_mul(u32::try_from(steps).unwrap_or(u32::MAX))
+fn for_steps(cost: Cost) -> u32 {
+    EFFORT_PER_STEP.saturating_mul(u32::try_from(cost.get()).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]
@@ -173,8 +176,8 @@ mod tests {
 
     use super::*;
     use crate::budget::Clock;
-    use crate::geometry::shadow;
-    use crate::knowledge::{complete, swept_finger_options};
+    use crate::knowledge::{SweptFinger, complete};
+    use crate::scene::ObjectIndex;
     use crate::scene::scenes::TestScene;
 
     /// A clock that advances by 1 ms per look.
@@ -202,8 +205,8 @@ mod tests {
             .disc("east", 0.108_18, 0.030_045, 0.021_03)
             .disc("west", 0.022_59, 0.025_764, 0.021_03)
             .build("cup");
-        let base = complete(&scene, swept_finger_options, &Budget::unlimited()).unwrap();
-        let question = Question { scene: &scene, base: &base, model: shadow, objective: Objective::default() };
+        let base = complete(&scene, &SweptFinger, &Budget::unlimited()).unwrap();
+        let question = Question { scene: &scene, base: &base, model: &SweptFinger, objective: Objective::default() };
         let clock = Ticking::default();
         let budget = Budget::new(&clock, Duration::from_secs(100));
         let mut coming = coming.iter();
@@ -218,8 +221,16 @@ mod tests {
             None => Ok(None),
         };
         let effort = Effort::new(MAX_EFFORT);
-        Coupling { question: &question, budget: &budget, cheapest: 1, more, next: None, tried: Vec::new(), effort }
-            .arrange()
+        Coupling {
+            question: &question,
+            budget: &budget,
+            cheapest: Cost::new(1),
+            more,
+            next: None,
+            tried: Vec::new(),
+            effort,
+        }
+        .arrange()
     }
 
     fn cost(arranged: Result<Option<Arrangement>, Interrupted>) -> Option<usize> {

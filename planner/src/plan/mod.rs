@@ -1,28 +1,24 @@
 //! From a scene to a checked answer.
 
 mod answer;
-pub mod check;
-mod claim;
 mod confirm;
 mod couple;
-mod judge;
-mod known;
 mod planner;
+mod reasons;
 mod settings;
-mod sought;
-mod statement;
+mod stated;
 mod survey;
-mod verdicts;
-mod warning;
 
-pub use crate::geometry::Grasp;
-pub use crate::placement::{Objective, Relocation};
-pub use answer::{Answer, Deadlock, LowerBound, Plan, Statistics, Unplanned, Verdict};
-pub use claim::{Claim, ClaimedDeadlock, ClaimedGrasp, ClaimedRelocation, VerdictName};
+pub use crate::placement::Objective;
+pub use answer::{Answer, Statistics};
 pub use confirm::PlanError;
-pub use known::{Known, KnownOption, known};
-pub use planner::{plan, plan_reporting};
-pub use settings::{GraspModel, PlacementMethod, SearchMethod, Settings};
-pub use sought::{SearchLimits, Sought, seek_within};
+pub use planner::plan;
+pub use settings::Settings;
 pub use survey::{SurveyEntry, SurveyVerdict, survey};
-pub use warning::{Cause, Warning};
+
+// What the paper's own planner shares with this one.
+pub(crate) use answer::timed;
+pub(crate) use confirm::confirmed_part;
+pub(crate) use couple::{Question, arrange_least, arrange_one};
+pub(crate) use planner::{PLACEMENT_SHARE, SEARCH_SHARE, placed};
+pub(crate) use reasons::{graspable_now, prove_deadlock};

@@ -1,14 +1,14 @@
 //! Every movable object as the target: logic only, without places.
 
-use super::answer::{Unplanned, Verdict};
-use super::check::Checker;
 use super::confirm::{PlanError, confirm};
-use super::verdicts::{graspable_now, greatest_lock};
+use super::reasons::{graspable_now, greatest_lock};
 use crate::budget::Budget;
-use crate::geometry::shadow;
-use crate::knowledge::{Derivable, KnowledgeBase, NoBase, complete, derivable, swept_finger_options};
+use crate::check::Checker;
+use crate::cost::Cost;
+use crate::knowledge::{Derivable, KnowledgeBase, NoBase, SweptFinger, complete, derivable};
 use crate::scene::{ObjectIndex, Scene};
 use crate::search::{Outcome, Restriction, least};
+use crate::statement::{Statement, Verdict};
 
 /// The verdict for one object as the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct SurveyEntry {
     /// The verdict for it as the target.
     pub verdict: SurveyVerdict,
     /// The proven bound; `None` for a deadlock.
-    pub lower_bound: Option<usize>,
+    pub lower_bound: Option<Cost>,
     /// True if that many relocations suffice, places ignored; `None` for a deadlock.
     pub optimal: Option<bool>,
 }
@@ -42,8 +42,7 @@ pub struct SurveyEntry {
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if an entry's proof fails its check.
 pub fn survey(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError> {
     let movable = scene.indices().filter(|&object| !scene.object(object).fixed());
-    let known =
-        complete(scene, swept_finger_options, budget).and_then(|base| Ok((derivable(&base, |_| false, budget)?, base)));
+    let known = complete(scene, &SweptFinger, budget).and_then(|base| Ok((derivable(&base, |_| false, budget)?, base)));
     let (derivable, base) = match known {
         Ok(known) => known,
         Err(NoBase::Interrupted) => return Ok(movable.map(timed_out).collect()),
@@ -72,33 +71,38 @@ impl Surveyor<'_> {
         if !self.derivable.derives(object) {
             return self.deadlock(&scene, budget);
         }
-        let verdict = if self.base.options(object).any(<[_]>::is_empty) {
-            graspable_now(&scene, shadow)?
-        } else {
-            self.derive(object, budget)
-        };
-        Ok(match confirm(&mut self.checker, &scene, verdict, budget)? {
-            Verdict::Graspable(_) => {
-                SurveyEntry { object, verdict: SurveyVerdict::Graspable, lower_bound: Some(0), optimal: Some(true) }
-            }
-            Verdict::NoSpace(Unplanned { bound: Some(bound), needed: Some(needed) }) => SurveyEntry {
-                object,
-                verdict: SurveyVerdict::Relocate,
-                lower_bound: Some(bound.cost),
-                optimal: Some(bound.cost == needed.len()),
-            },
-            _ => timed_out(object),
-        })
+        if self.base.free_now(object) {
+            let stated = Statement::graspable(graspable_now(&scene, &SweptFinger)?);
+            return Ok(match confirm(&mut self.checker, &scene, stated, budget)?.verdict {
+                Some(Verdict::Graspable) => SurveyEntry {
+                    object,
+                    verdict: SurveyVerdict::Graspable,
+                    lower_bound: Some(Cost::ZERO),
+                    optimal: Some(true),
+                },
+                _ => timed_out(object),
+            });
+        }
+        self.derive(&scene, budget)
     }
 
     /// A derivation with its bound, stated as an answer without places.
-    fn derive(&self, object: ObjectIndex, budget: &Budget<'_>) -> Verdict {
-        match least(self.base, object, &Restriction::default(), budget) {
-            Outcome::Least(known) | Outcome::Interrupted(Some(known)) => {
-                Verdict::NoSpace(Unplanned { bound: Some((&known).into()), needed: Some(known.derivation.order) })
-            }
-            Outcome::Underivable | Outcome::Interrupted(None) => Verdict::TimedOut(Unplanned::default()),
-        }
+    fn derive(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
+        let object = scene.target();
+        let (Outcome::Least(set) | Outcome::Interrupted(Some(set))) =
+            least(self.base, object, &Restriction::default(), budget)
+        else {
+            return Ok(timed_out(object));
+        };
+        let stated = Statement::no_space(scene, &set.derivation.order).bounded(scene, &set);
+        let confirmed = confirm(&mut self.checker, scene, stated, budget)?;
+        let lower_bound = confirmed.lower_bound;
+        Ok(if confirmed.verdict == Some(Verdict::NoSpace) && confirmed.needed.is_some() {
+            let optimal = lower_bound.map(|bound| bound == set.derivation.cost());
+            SurveyEntry { object, verdict: SurveyVerdict::Relocate, lower_bound, optimal }
+        } else {
+            timed_out(object)
+        })
     }
 
     fn deadlock(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
@@ -119,16 +123,12 @@ impl Surveyor<'_> {
 
     /// In index order.
     fn confirmed_lock(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<Vec<ObjectIndex>, PlanError> {
-        let lock = greatest_lock(scene, self.base, self.derivable, budget);
-        let verdict =
-            lock.map_or_else(|_| Verdict::TimedOut(Unplanned::default()), |lock| Verdict::Deadlock(Some(lock)));
-        Ok(match confirm(&mut self.checker, scene, verdict, budget)? {
-            Verdict::Deadlock(Some(lock)) => lock.blocked,
-            _ => Vec::new(),
-        })
+        let Ok(locks) = greatest_lock(scene, self.base, self.derivable, budget) else { return Ok(Vec::new()) };
+        let confirmed = confirm(&mut self.checker, scene, Statement::deadlock(scene, &locks), budget)?;
+        Ok(if confirmed.verdict == Some(Verdict::Deadlock) { locks.blocked } else { Vec::new() })
     }
 }
 
 fn timed_out(object: ObjectIndex) -> SurveyEntry {
-    SurveyEntry { object, verdict: SurveyVerdict::TimedOut, lower_bound: Some(0), optimal: Some(false) }
+    SurveyEntry { object, verdict: SurveyVerdict::TimedOut, lower_bound: Some(Cost::ZERO), optimal: Some(false) }
 }

@@ -1,5 +1,7 @@
 //! The draft of a scene: unchecked input.
 
+use super::footprint::ShapeDraft;
+
 /// An unchecked scene. `None` means that the part was absent or unreadable; the reader of the input reports that.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SceneDraft {
@@ -59,8 +61,8 @@ pub struct ObjectDraft {
     pub x: Option<f64>,
     /// Centre, m.
     pub y: Option<f64>,
-    /// Radius, m.
-    pub radius: Option<f64>,
+    /// What it covers of the table.
+    pub shape: ShapeDraft,
     /// True if it can't be moved.
     pub fixed: bool,
 }

@@ -2,6 +2,8 @@
 
 use core::f64::consts::TAU;
 
+use super::footprint::Footprint;
+
 /// A checked gripper with k fingers, evenly spaced round the object that it grasps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gripper {
@@ -52,9 +54,14 @@ impl Gripper {
         (2.0 * self.yaw_tolerance).max(MIN_FREE_WIDTH)
     }
 
-    /// The distance of the open fingers' outer corners from the centre of an object of radius `radius`, m.
-    pub fn corner_distance(&self, radius: f64) -> f64 {
-        let (outer, half) = (radius + self.clearance, self.finger_width / 2.0);
+    /// The distance from the centre of `grasped` within which another object (its edge) can block the open fingers, m.
+    pub fn reach(&self, grasped: &Footprint) -> f64 {
+        self.corner_distance(grasped) + self.margin
+    }
+
+    /// The greatest distance of the open fingers' outer corners from the origin of `grasped`, m.
+    pub fn corner_distance(&self, grasped: &Footprint) -> f64 {
+        let (outer, half) = (grasped.circumradius() + self.clearance, self.finger_width / 2.0);
         (outer * outer + half * half).sqrt()
     }
 }

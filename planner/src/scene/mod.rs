@@ -6,6 +6,7 @@
 
 mod draft;
 mod fault;
+mod footprint;
 mod gripper;
 mod index;
 mod limits;
@@ -21,12 +22,13 @@ use std::sync::Arc;
 
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 pub use fault::{Finding, Flaw, Likely, MAX_FINDINGS, Place, Yardstick};
+pub use footprint::{Footprint, Pose, Shape, ShapeDraft, distance};
 pub use gripper::{Gripper, MIN_FREE_WIDTH};
-pub use index::DiscIndex;
+pub use index::FootprintIndex;
 pub use limits::{
     COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
 };
-pub use object::{Disc, Object, ObjectIndex, distance};
+pub use object::{Object, ObjectIndex};
 pub use table::{Rectangle, Table};
 
 /// A valid scene. Cheap to clone.
@@ -42,7 +44,7 @@ struct Parts {
     table: Table,
     gripper: Gripper,
     objects: Vec<Object>,
-    index: DiscIndex,
+    index: FootprintIndex,
 }
 
 impl Scene {
@@ -96,7 +98,7 @@ impl Scene {
     }
 
     /// The spatial index of the objects at the start.
-    pub fn index(&self) -> &DiscIndex {
+    pub fn index(&self) -> &FootprintIndex {
         &self.parts.index
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::fault::{Findings, Flaw, Likely, Place};
 use super::slips;
-use super::{Disc, DiscIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
+use super::{Footprint, FootprintIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
 
 /// Depths that differ by no more count as equal, m: half a micrometre, since overlaps are reported to the micrometre.
 /// So discs that touch, or overlap by exactly the tolerance in decimals, are judged as written. Rounding to doubles
@@ -17,8 +17,8 @@ const OVERHANG: f64 = 1.0 / 3.0;
 
 /// Warns of discs that hang over the table's edge; their centres are on it.
 pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findings) {
-    for (at, Object { disc, .. }) in objects.iter().enumerate() {
-        let (overhang, radius) = (-top.inner_gap(disc), disc.radius);
+    for (at, Object { footprint, .. }) in objects.iter().enumerate() {
+        let (overhang, radius) = (-footprint.gap_inside(&top), footprint.circumradius());
         if overhang > OVERHANG * radius + TOUCHING {
             warnings.add(Place::WholeObject(at), Flaw::HangsOverTable { overhang, radius });
         }
@@ -30,7 +30,7 @@ pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findi
 /// objects than a grasp may have neighbours is refused for that, which bounds the work.
 pub(super) fn overlaps(
     objects: &[Object],
-    index: &DiscIndex,
+    index: &FootprintIndex,
     limits: &SceneLimits,
     faults: &mut Findings,
     warnings: &mut Findings,
@@ -43,8 +43,7 @@ pub(super) fn overlaps(
         let mut touched = if object.fixed {
             earlier.remove(&this).unwrap_or_default()
         } else {
-            let near = index.within(object.disc.centre, object.disc.radius);
-            near.map(|(other, _)| other).take(max + 2).collect()
+            touching(index, &object.footprint).take(max + 2).collect()
         };
         // The index finds the object itself too.
         if touched.len() > max + 1 && !object.fixed {
@@ -64,6 +63,11 @@ pub(super) fn overlaps(
     }
 }
 
+/// The objects that may overlap with a footprint, itself among them.
+fn touching<'a>(index: &'a FootprintIndex, footprint: &Footprint) -> impl Iterator<Item = ObjectIndex> + 'a {
+    index.within(footprint.at(), footprint.circumradius()).map(|(other, _)| other)
+}
+
 /// Reports the overlap of the object at `at` with an earlier one.
 fn overlap(
     at: usize,
@@ -73,12 +77,12 @@ fn overlap(
     faults: &mut Findings,
     warnings: &mut Findings,
 ) {
-    let depth = -object.disc.gap(&earlier.disc);
+    let depth = -object.footprint.gap(&earlier.footprint);
     if depth <= TOUCHING {
         return;
     }
     let (list, likely) = match depth > tolerance + TOUCHING {
-        true => (faults, slips::overlap(&object.disc, &earlier.disc, depth)),
+        true => (faults, slips::overlap(&object.footprint, &earlier.footprint, depth)),
         false => (warnings, Likely::Open),
     };
     list.add(Place::WholeObject(at), Flaw::Overlap { other: earlier.id.clone(), depth, tolerance, likely });
@@ -88,20 +92,22 @@ fn overlap(
 pub(super) fn reach(
     gripper: &Gripper,
     objects: &[Object],
-    index: &DiscIndex,
+    index: &FootprintIndex,
     limits: &SceneLimits,
     faults: &mut Findings,
     warnings: &mut Findings,
 ) {
     let half_angle_tangent = libm::tan(gripper.period() / 2.0);
     for (at, object) in objects.iter().enumerate().filter(|(_, object)| !object.fixed) {
-        let Disc { centre, radius } = object.disc;
         let id = || object.id.clone();
-        let reach = gripper.corner_distance(radius) + gripper.margin;
+        let reach = gripper.reach(&object.footprint);
         // The index finds the object itself too.
-        if index.within(centre, reach).take(limits.max_neighbours + 2).count() > limits.max_neighbours + 1 {
+        if index.within(object.footprint.at(), reach).take(limits.max_neighbours + 2).count()
+            > limits.max_neighbours + 1
+        {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
         }
+        let radius = object.footprint.shape.inradius();
         if gripper.finger_width / 2.0 > radius * half_angle_tangent {
             let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
             warnings.add(Place::WholeObject(at), flaw);

@@ -1,6 +1,6 @@
 //! A builder of scenes for unit tests.
 
-use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
 
 /// The builder. By default: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
 pub(crate) struct TestScene(SceneDraft);
@@ -47,7 +47,8 @@ impl TestScene {
     }
 
     pub(crate) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
-        let object = ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), radius: Some(radius), fixed: false };
+        let object =
+            ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed: false };
         self.0.objects.push(object);
         self
     }
@@ -58,7 +59,7 @@ impl TestScene {
         for (at, &(x, y, radius)) in discs.iter().enumerate() {
             let apart = |other: &ObjectDraft| {
                 let (dx, dy) = (other.x.unwrap_or_default() - x, other.y.unwrap_or_default() - y);
-                (dx * dx + dy * dy).sqrt() - other.radius.unwrap_or_default() - radius
+                (dx * dx + dy * dy).sqrt() - other.shape.radius.unwrap_or_default() - radius
             };
             if self.0.objects.iter().all(|other| apart(other) >= 0.0) {
                 self = self.disc(&format!("d{at}"), x, y, radius);

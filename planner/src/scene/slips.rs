@@ -9,7 +9,7 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::fault::{Findings, Flaw, Likely, Place, Yardstick};
-use super::{Disc, Gripper, Object, Rectangle};
+use super::{Footprint, Gripper, Object, Rectangle};
 
 /// The threshold of a length in largest radii, if it is also at least [`LONG`].
 const LONG_TO_RADIUS: f64 = 3.0;
@@ -68,7 +68,7 @@ struct Scale {
 
 impl Scale {
     fn new(top: Rectangle, objects: &[Object]) -> Self {
-        let radii = || objects.iter().map(|object| object.disc.radius);
+        let radii = || objects.iter().map(|object| object.footprint.circumradius());
         let (smallest, largest) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
         Self { sides: top.sides(), smallest, largest }
     }
@@ -110,16 +110,15 @@ impl Scale {
 
 /// The likely cause of a centre beside the table.
 pub(super) fn off_table(top: Rectangle, centre: Point2<f64>) -> Likely {
-    let point = Disc { centre, radius: 0.0 };
     let (x, y) = top.sides();
-    if top.outer_gap(&point) > FAR_OFF * x.max(y) { Likely::FrameOrUnit } else { Likely::Open }
+    if top.distance(centre) > FAR_OFF * x.max(y) { Likely::FrameOrUnit } else { Likely::Open }
 }
 
 /// The likely cause of an overlap past the tolerance (`depth` in m).
-pub(super) fn overlap(one: &Disc, other: &Disc, depth: f64) -> Likely {
+pub(super) fn overlap(one: &Footprint, other: &Footprint, depth: f64) -> Likely {
     if depth >= HUGE_OVERLAP {
         Likely::UnitOrSeenTwice
-    } else if depth >= one.radius.min(other.radius) {
+    } else if depth >= one.circumradius().min(other.circumradius()) {
         // The centre of one lies in the other.
         Likely::SeenTwice
     } else {

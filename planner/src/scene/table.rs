@@ -4,8 +4,6 @@ use core::fmt;
 
 use nalgebra::Point2;
 
-use super::object::Disc;
-
 /// An axis-parallel rectangle with positive sides, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
@@ -34,19 +32,17 @@ impl Rectangle {
         (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
     }
 
-    /// Least distance from the disc's edge to the border, m; negative where the disc sticks out. The disc's centre is
-    /// taken to be inside.
-    pub fn inner_gap(&self, disc: &Disc) -> f64 {
-        let c = disc.centre;
-        (c.x - self.min.x).min(self.max.x - c.x).min(c.y - self.min.y).min(self.max.y - c.y) - disc.radius
+    /// Least distance from a point inside to the border, m; negative for a point outside.
+    pub fn depth(&self, point: Point2<f64>) -> f64 {
+        let (x, y) = (point.x, point.y);
+        (x - self.min.x).min(self.max.x - x).min(y - self.min.y).min(self.max.y - y)
     }
 
-    /// Distance from the disc's edge to this rectangle, m; negative where they overlap.
-    pub fn outer_gap(&self, disc: &Disc) -> f64 {
-        let c = disc.centre;
-        let x = (self.min.x - c.x).max(c.x - self.max.x).max(0.0);
-        let y = (self.min.y - c.y).max(c.y - self.max.y).max(0.0);
-        (x * x + y * y).sqrt() - disc.radius
+    /// Distance from a point to the rectangle, m; 0 inside.
+    pub fn distance(&self, point: Point2<f64>) -> f64 {
+        let x = (self.min.x - point.x).max(point.x - self.max.x).max(0.0);
+        let y = (self.min.y - point.y).max(point.y - self.max.y).max(0.0);
+        (x * x + y * y).sqrt()
     }
 }
 

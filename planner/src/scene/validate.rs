@@ -12,8 +12,8 @@ use super::limits::{
 use super::relations::{overhangs, overlaps, reach};
 use super::slips;
 use super::{
-    Disc, DiscIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Parts, Rectangle, RectangleDraft, Scene,
-    SceneDraft, Table, TableDraft,
+    Footprint, FootprintIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Parts, Rectangle,
+    RectangleDraft, Scene, SceneDraft, Table, TableDraft,
 };
 
 pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene, Vec<Finding>), Vec<Finding>> {
@@ -35,7 +35,7 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     let target = draft.target.as_ref().and_then(|id| target(id, &ids, &draft.objects, &mut faults));
     // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
     let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
-    let index = DiscIndex::new(objects.iter().map(Object::disc));
+    let index = FootprintIndex::new(objects.iter().map(Object::footprint));
     if let (Some(table), Some(gripper)) = (&table, &gripper) {
         // Slips first, before the warnings that follow from them.
         slips::slips(table.top, gripper, &objects, &mut warnings);
@@ -150,13 +150,17 @@ fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Fi
     let mut field = |value, range, name| ranged(value, range, Place::Object(at, name), faults);
     let x = field(draft.x, COORDINATE_RANGE, "x");
     let y = field(draft.y, COORDINATE_RANGE, "y");
-    let radius = field(draft.radius, LENGTH_RANGE, "radius");
+    let shape = draft.shape.checked(&mut field);
     let centre = Point2::new(x?, y?);
     if let Some(top) = table.map(|table| table.top).filter(|top| !top.contains(centre)) {
         let likely = slips::off_table(top, centre);
         faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y, top, likely });
     }
-    Some(Object { id: draft.id.clone()?, disc: Disc { centre, radius: radius? }, fixed: draft.fixed })
+    Some(Object {
+        id: draft.id.clone()?,
+        footprint: Footprint { shape: shape?, pose: centre.into() },
+        fixed: draft.fixed,
+    })
 }
 
 fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults: &mut Findings) -> Option<ObjectIndex> {

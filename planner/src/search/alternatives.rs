@@ -9,6 +9,7 @@ use std::collections::BinaryHeap;
 use super::least::least;
 use super::outcome::{Derivation, Outcome, Restriction};
 use crate::budget::{Budget, Interrupted};
+use crate::cost::Cost;
 use crate::knowledge::{KnowledgeBase, derivable};
 use crate::scene::ObjectIndex;
 
@@ -17,7 +18,7 @@ pub struct Alternatives<'a> {
     base: &'a KnowledgeBase,
     target: ObjectIndex,
     /// Positions in `found`, by size, then by age.
-    open: BinaryHeap<Reverse<(usize, usize)>>,
+    open: BinaryHeap<Reverse<(Cost, usize)>>,
     found: Vec<(Restriction, Derivation)>,
     /// The class of the last set returned, as far as it is not partitioned yet.
     class: Option<Class>,
@@ -33,7 +34,7 @@ struct Class {
 impl<'a> Alternatives<'a> {
     /// `first` is a least derivation of the target, and is returned first.
     pub fn new(base: &'a KnowledgeBase, target: ObjectIndex, first: Derivation) -> Self {
-        let open = BinaryHeap::from([Reverse((first.order.len(), 0))]);
+        let open = BinaryHeap::from([Reverse((first.cost(), 0))]);
         Self { base, target, open, found: vec![(Restriction::default(), first)], class: None }
     }
 
@@ -65,7 +66,7 @@ impl<'a> Alternatives<'a> {
             narrower.held.push(object);
             match least(self.base, self.target, &narrower, budget) {
                 Outcome::Least(set) => {
-                    self.open.push(Reverse((set.derivation.order.len(), self.found.len())));
+                    self.open.push(Reverse((set.derivation.cost(), self.found.len())));
                     self.found.push((narrower, set.derivation));
                 }
                 Outcome::Underivable => {}

@@ -3,8 +3,7 @@
 
 use super::bits::Bits;
 use super::problem::{Node, Problem};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// The most bits of all sets together, 8 MB. Larger problems get no fact landmarks.
 const MAX_BITS: usize = 1 << 26;

@@ -5,8 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::forward_chaining::ForwardChaining;
 use super::problem::{Node, Problem};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// A derivation by h_add (Bonet & Geffner 2001): a node costs 1 plus the costs of all members of its cheapest body. The
 /// costs come from Dijkstra's algorithm in Knuth's generalisation (1977), the derivation from the best supporters of

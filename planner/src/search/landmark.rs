@@ -2,8 +2,7 @@
 
 use super::forward_chaining::ForwardChaining;
 use super::problem::{Node, Problem};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// Grows the allowed set of a chain that does not reach the goal to a maximal one that still does not. Returns the
 /// complement: an inclusion-minimal landmark of the goal, disjoint from the nodes allowed before. The chain is

@@ -8,8 +8,8 @@ use super::outcome::{Derivation, Incumbent, LeastSet, Outcome, Progress, Restric
 use super::preprocessing::{Preprocessed, preprocess};
 use super::problem::{Node, Problem};
 use super::{hitting, incumbent, landmark, proof};
-use crate::budget::Ticker;
-use crate::budget::{Budget, Interrupted};
+use crate::budget::{Budget, Interrupted, Ticker};
+use crate::cost::Cost;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
@@ -51,10 +51,10 @@ pub fn least_within(
             underived_required.push(node);
         }
     }
-    let Ok(mut search) = HittingSetSearch::new(&problem, forced, underived_required, memory, &mut ticker) else {
+    let Ok(mut search) = HittingSetSearch::new(&problem, forced, underived_required, memory, progress, &mut ticker)
+    else {
         return Outcome::Interrupted(None);
     };
-    search.progress = progress;
     match search.run(&mut ticker) {
         Ok(()) => Outcome::Least(search.known(&mut ticker)),
         Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut ticker))),
@@ -75,7 +75,7 @@ struct HittingSetSearch<'p> {
     landmarks: Vec<Vec<Node>>,
     /// The best set known, in an order in which it can be moved.
     best: Vec<Node>,
-    /// The lower bound.
+    /// No set has fewer nodes.
     bound: usize,
     /// The part of the bound that the landmarks prove.
     proven: usize,
@@ -87,6 +87,7 @@ impl<'p> HittingSetSearch<'p> {
         forced: Vec<Node>,
         underived_required: Vec<Node>,
         memory: &'p Memory,
+        progress: Progress<'p>,
         ticker: &mut Ticker<'_>,
     ) -> Result<Self, Interrupted> {
         let mut chain = ForwardChaining::new(problem);
@@ -98,7 +99,7 @@ impl<'p> HittingSetSearch<'p> {
         let mut search = Self {
             problem,
             memory,
-            progress: SILENT,
+            progress,
             chain,
             forced,
             underived_required,
@@ -109,6 +110,11 @@ impl<'p> HittingSetSearch<'p> {
         };
         search.best = search.with_forced(best);
         Ok(search)
+    }
+
+    fn report(&self) {
+        let (cost, lower_bound) = (Cost::of_each(self.best.len()), Cost::of_each(self.bound));
+        (self.progress)(Incumbent { cost, lower_bound });
     }
 
     fn run(&mut self, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
@@ -123,7 +129,7 @@ impl<'p> HittingSetSearch<'p> {
         // Greedy hitting sets first: they are cheap, and each that fails gives new landmarks.
         let mut bounded_at = self.landmarks.len();
         loop {
-            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
+            self.report();
             if self.best.len() <= self.bound {
                 return Ok(());
             }
@@ -158,7 +164,7 @@ impl<'p> HittingSetSearch<'p> {
             };
             let raised = by_clauses.raise(conflicts, self.best.len(), &mut |set| self.adopt(set, ticker));
             self.bound = self.bound.max(by_clauses.bound());
-            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
+            self.report();
             if self.best.len() <= self.bound {
                 return Ok(());
             }
@@ -183,7 +189,7 @@ impl<'p> HittingSetSearch<'p> {
     fn settle_by_hitting(&mut self, choices: usize, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
         let mut allowance = Allowance { choices, words: self.memory.words };
         while self.best.len() > self.bound {
-            (self.progress)(Incumbent { cost: self.best.len(), lower_bound: self.bound });
+            self.report();
             match self.least_hitting_set(&mut allowance, ticker) {
                 Ok(Some(hit)) => self.learn(&hit, ticker)?,
                 Ok(None) => return Ok(true),
@@ -309,8 +315,8 @@ impl<'p> HittingSetSearch<'p> {
         landmarks.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
         LeastSet {
             derivation: Derivation { order: objects(&self.best) },
-            bound: self.bound,
-            proven: self.proven,
+            bound: Cost::of_each(self.bound),
+            proven: Cost::of_each(self.proven),
             landmarks,
         }
     }

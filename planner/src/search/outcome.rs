@@ -1,5 +1,6 @@
 //! The question to the search, and its answer.
 
+use crate::cost::Cost;
 use crate::scene::ObjectIndex;
 
 /// Objects in an order in which each can be moved, after which the target can be grasped. The target is not among them.
@@ -9,18 +10,25 @@ pub struct Derivation {
     pub order: Vec<ObjectIndex>,
 }
 
+impl Derivation {
+    /// The cost of moving each object once. The search minimises it, so each object costs the same there.
+    pub fn cost(&self) -> Cost {
+        Cost::of_each(self.order.len())
+    }
+}
+
 /// A lower bound with its proof, and the best derivation so far.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LeastSet {
     /// The shortest derivation known.
     pub derivation: Derivation,
     /// No derivation is shorter.
-    pub bound: usize,
+    pub bound: Cost,
     /// The part of the bound that the landmarks prove. On a hard base it may be less than the bound, the rest of which
     /// comes from MaxSAT.
-    pub proven: usize,
+    pub proven: Cost,
     /// Landmarks, each sorted: every derivation holds at least one member of each. A least hitting set of them has at
-    /// least `proven` members. (For a restricted question both hold only under the restriction.)
+    /// least `proven` members, each of which costs one. (For a restricted question both hold only under the restriction.)
     pub landmarks: Vec<Vec<ObjectIndex>>,
 }
 
@@ -38,10 +46,10 @@ pub enum Outcome {
 /// How far the search has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Incumbent {
-    /// The size of the best set known.
-    pub cost: usize,
-    /// No set is smaller.
-    pub lower_bound: usize,
+    /// The cost of the best set known.
+    pub cost: Cost,
+    /// No set costs less.
+    pub lower_bound: Cost,
 }
 
 /// Is told of every incumbent, of some of them twice.
@@ -50,7 +58,7 @@ pub type Progress<'a> = &'a dyn Fn(Incumbent);
 /// Nobody is told.
 pub const SILENT: Progress<'static> = &|_| {};
 
-/// A narrower question, to enumerate sets in order of their size.
+/// A narrower question, to enumerate sets in order of their cost.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Restriction {
     /// Objects that must not be moved.

@@ -4,8 +4,7 @@ use super::fact_landmarks::FactLandmarks;
 use super::forward_chaining::ForwardChaining;
 use super::outcome::Restriction;
 use super::problem::{MEMBERS_A_STEP, Node, Problem};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 

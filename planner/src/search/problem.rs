@@ -1,7 +1,6 @@
 //! The Horn rules of one question, densely numbered.
 
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 

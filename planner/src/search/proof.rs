@@ -1,8 +1,7 @@
 //! A small set of landmarks that proves the bound.
 
 use super::problem::Node;
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// Landmarks that prove the same bound, smallest first: disjoint ones where these suffice, since they are checked by
 /// counting; otherwise all that are not supersets of another. Where the budget ends, all of them.

@@ -2,8 +2,8 @@
 
 use super::preprocessing::preprocess;
 use super::{Alternatives, Incumbent, LeastSet, Memory, Outcome, Restriction, least, least_within};
-use crate::budget::Budget;
-use crate::budget::Ticker;
+use crate::budget::{Budget, Ticker};
+use crate::cost::Cost;
 use crate::knowledge::{KnowledgeBase, derivable};
 use crate::scene::ObjectIndex;
 use proptest::prelude::*;
@@ -48,7 +48,8 @@ fn check(options: &[Vec<Vec<usize>>], target: usize) -> Option<LeastSet> {
     };
     let order: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
     assert_eq!(Some(u32::try_from(order.len()).unwrap()), expected, "{order:?}");
-    assert_eq!((found.bound, found.proven), (order.len(), order.len()));
+    let cost = found.derivation.cost();
+    assert_eq!((cost, found.bound, found.proven), (Cost::of_each(order.len()), cost, cost));
     for (at, &object) in order.iter().enumerate() {
         assert!(options[object].iter().any(|option| option.iter().all(|m| order[..at].contains(m))), "{order:?}");
     }
@@ -73,7 +74,7 @@ fn an_object_needed_at_two_depths_is_no_cycle() {
 fn what_needs_the_target_gone_is_no_way_to_the_target() {
     assert_eq!(check(&[vec![vec![1]], vec![vec![0]]], 0), None);
     let found = check(&[vec![vec![1]], vec![vec![0], vec![2]], vec![vec![]]], 0).expect("derivable");
-    assert_eq!(found.bound, 2);
+    assert_eq!(found.bound, Cost::new(2));
 }
 
 #[test]
@@ -173,8 +174,8 @@ proptest! {
             Outcome::Underivable => prop_assert_eq!(expected, None),
             Outcome::Interrupted(None) => {}
             Outcome::Least(found) | Outcome::Interrupted(Some(found)) => {
-                let expected = expected.expect("derivable") as usize;
-                prop_assert!(found.bound <= expected && expected <= found.derivation.order.len());
+                let expected = Cost::new(expected.expect("derivable").into());
+                prop_assert!(found.bound <= expected && expected <= found.derivation.cost());
                 let mask = |set: &[ObjectIndex]| set.iter().fold(0_u32, |mask, object| mask | 1 << object.get());
                 prop_assert!(follows(&options, 0, mask(&found.derivation.order)));
                 prop_assert!(found.landmarks.iter().all(|landmark| !follows(&options, 0, !mask(landmark))));
@@ -192,7 +193,7 @@ proptest! {
         let told = told.into_inner();
         prop_assert!(told.is_sorted_by(|(cost, bound), (next, next_bound)| next <= cost && bound <= next_bound));
         if let Outcome::Least(found) = outcome {
-            let least = found.derivation.order.len();
+            let least = found.derivation.cost();
             prop_assert!(told.iter().all(|(cost, bound)| *bound <= least && least <= *cost), "{told:?}");
         }
     }

@@ -1,9 +1,11 @@
 //! The texts, word for word.
 
+use nalgebra::Point2;
+
 use super::*;
 use crate::wire::{RequestLimits, read_scene};
-use singulate_planner::plan::Relocation;
-use singulate_planner::plan::check::{Fault, FaultCode, Report};
+use singulate_planner::check::{Fault, FaultCode, Report};
+use singulate_planner::scene::ObjectIndex;
 
 fn request() -> PlanRequest {
     let scene = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 2, "y_max": 1},
@@ -15,26 +17,41 @@ fn request() -> PlanRequest {
     read_scene(scene.as_bytes(), &RequestLimits::default()).unwrap()
 }
 
-fn objects(positions: &[usize]) -> Vec<ObjectIndex> {
-    positions.iter().copied().map(ObjectIndex::new).collect()
+fn ids(positions: &[usize]) -> Vec<String> {
+    positions.iter().map(|&at| request().scene.objects()[at].id().to_owned()).collect()
 }
 
-fn text(verdict: Verdict) -> String {
+fn text(statement: Statement) -> String {
     let statistics = Statistics { knowledge: Duration::from_micros(40), ..Statistics::default() };
-    answer(&request(), &Answer { verdict, warnings: Vec::new(), statistics })
+    answer(&request(), &Answer { statement, statistics }.into())
 }
 
-const GRASP: Grasp = Grasp { yaw: 0.5, slack: 0.1 };
+const GRASP: StatedGrasp = StatedGrasp { yaw: 0.5, slack: Some(0.1) };
 const TIMES: &str = "0.04 ms in all: knowledge 0.04 ms, search 0.00 ms, placement 0.00 ms, check 0.00 ms\n";
 
-fn plan(bound: usize, landmarks: &[&[usize]]) -> Verdict {
+fn plan(bound: u64, landmarks: &[&[usize]]) -> Statement {
     let step = |object: usize| {
-        let from = request().scene.objects()[object].disc().centre;
-        let (object, to) = (ObjectIndex::new(object), Point2::new(1.5, 0.25));
-        Relocation { object, from, to, grasp: GRASP, release: GRASP, gap: 0.0312 }
+        let request = request();
+        let object = &request.scene.objects()[object];
+        Step::PickPlace(PickPlace {
+            object: object.id().to_owned(),
+            from: Some(object.footprint().pose),
+            to: Point2::new(1.5, 0.25).into(),
+            grasp: GRASP,
+            release: GRASP,
+            gap: Some(0.0312),
+        })
     };
-    let bound = LowerBound { cost: bound, landmarks: landmarks.iter().map(|set| objects(set)).collect() };
-    Verdict::Relocate(Plan { relocations: vec![step(1), step(2)], target_grasp: GRASP, bound: Some(bound) })
+    Statement {
+        verdict: Some(Verdict::Relocate),
+        relocations: Some(vec![step(1), step(2)]),
+        target_grasp: Some(GRASP),
+        cost: Some(Cost::new(2)),
+        lower_bound: Some(Cost::new(bound)),
+        optimal: Some(bound == 2),
+        landmarks: Some(landmarks.iter().map(|set| ids(set)).collect()),
+        ..Statement::default()
+    }
 }
 
 #[test]
@@ -82,7 +99,7 @@ fn a_plan_above_its_bound_says_so() {
 
 #[test]
 fn a_deadlock_names_those_that_lock_each_other() {
-    let deadlock = Deadlock { blocked: objects(&[0, 1, 2, 3]), core: objects(&[0, 1, 3]) };
+    let deadlock = Some(Deadlock { blocked: ids(&[0, 1, 2, 3]), core: ids(&[0, 1, 3]) });
     let expected = format!(
         "deadlock: 3 objects hold each other, no pick-and-place can free the target\n\
          target: cup in scene cell-4/17\n\
@@ -98,13 +115,18 @@ fn a_deadlock_names_those_that_lock_each_other() {
          \n\
          {TIMES}"
     );
-    assert_eq!(text(Verdict::Deadlock(Some(deadlock))), expected);
+    assert_eq!(text(Statement { verdict: Some(Verdict::Deadlock), deadlock, ..Statement::default() }), expected);
 }
 
 #[test]
 fn without_a_plan_the_bound_and_the_needed_order_are_told() {
-    let bound = LowerBound { cost: 1, landmarks: vec![objects(&[1, 2])] };
-    let known = Unplanned { bound: Some(bound), needed: Some(objects(&[2, 1])) };
+    let known = Statement {
+        verdict: Some(Verdict::NoSpace),
+        lower_bound: Some(Cost::new(1)),
+        landmarks: Some(vec![ids(&[1, 2])]),
+        needed: Some(ids(&[2, 1])),
+        ..Statement::timed_out()
+    };
     let expected = format!(
         "no space: no place found for what has to move (at least 1 relocation is needed)\n\
          target: cup in scene cell-4/17\n\
@@ -118,8 +140,8 @@ fn without_a_plan_the_bound_and_the_needed_order_are_told() {
          \n\
          {TIMES}"
     );
-    assert_eq!(text(Verdict::NoSpace(known)), expected);
-    let nothing = text(Verdict::TimedOut(Unplanned::default()));
+    assert_eq!(text(known), expected);
+    let nothing = text(Statement::timed_out());
     assert_eq!(nothing, format!("timed out: nothing is proven yet\ntarget: cup in scene cell-4/17\n\n{TIMES}"));
 }
 
@@ -132,9 +154,9 @@ fn a_survey_is_one_line_an_object() {
         optimal,
     };
     let entries = [
-        entry(0, SurveyVerdict::Relocate, Some(2), Some(true)),
+        entry(0, SurveyVerdict::Relocate, Some(Cost::new(2)), Some(true)),
         entry(1, SurveyVerdict::Deadlock, None, None),
-        entry(2, SurveyVerdict::TimedOut, Some(1), Some(false)),
+        entry(2, SurveyVerdict::TimedOut, Some(Cost::new(1)), Some(false)),
     ];
     let text = survey(&request().scene, &entries);
     let expected = "object      verdict    relocations\n\

@@ -13,6 +13,7 @@ use crate::jobs::{
     Callback, Claim, Claimed, Delivery, End, EventKind, JobId, JobState, MAX_INCUMBENT_EVENTS, Renewal, Timestamp,
     WallClock,
 };
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 
 /// The lease begins once the job is locked by us, since the lock may take time.
@@ -82,7 +83,7 @@ pub(super) async fn note(
     let job = Standing { incumbent: Some(best), ..job };
     let line = if room { job.line(EventKind::Incumbent, job.attempts, now) } else { String::new() };
     let query = sqlx::query("UPDATE jobs SET cost = $2, lower_bound = $3, events = events || $4 WHERE id = $1");
-    let number = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
+    let number = |cost: Cost| i64::try_from(cost.get()).unwrap_or(i64::MAX);
     let query = query.bind(id).bind(number(best.cost)).bind(number(best.lower_bound)).bind(line);
     query.execute(change.connection()).await?;
     change.announce(News::of(job.id));

@@ -7,6 +7,7 @@ use sqlx::{AnyConnection, AssertSqlSafe, Error, Row};
 
 use crate::jobs::{Event, EventKind, Job, JobId, JobState, Owner, Page, Timestamp};
 use crate::wire::RawJson;
+use singulate_planner::cost::Cost;
 use singulate_planner::search::Incumbent;
 
 /// The columns of a job without its result and its place in the queue.
@@ -123,7 +124,9 @@ pub(super) fn state(row: &AnyRow) -> Result<JobState, Error> {
 
 pub(super) fn incumbent(row: &AnyRow) -> Result<Option<Incumbent>, Error> {
     let cost: Option<i64> = row.try_get("cost")?;
-    cost.map(|cost| Ok(Incumbent { cost: narrow(cost)?, lower_bound: whole(row, "lower_bound")? })).transpose()
+    let Some(cost) = cost else { return Ok(None) };
+    let lower_bound = Cost::new(whole(row, "lower_bound")?);
+    Ok(Some(Incumbent { cost: Cost::new(narrow(cost)?), lower_bound }))
 }
 
 pub(super) fn time(row: &AnyRow, column: &str) -> Result<Timestamp, Error> {
@@ -182,7 +185,9 @@ fn event(line: &str) -> Option<Event> {
     let at = Timestamp::from_millis(number(words.next()?)?);
     let attempts = number(words.next()?)?;
     let incumbent = match words.next() {
-        Some(cost) => Some(Incumbent { cost: number(cost)?, lower_bound: number(words.next()?)? }),
+        Some(cost) => {
+            Some(Incumbent { cost: Cost::new(number(cost)?), lower_bound: Cost::new(number(words.next()?)?) })
+        }
         None => None,
     };
     words.next().is_none().then_some(Event { kind, at, attempts, incumbent, queue_position })
@@ -198,7 +203,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_what_is_read() {
-        let incumbents = [None, Some(Incumbent { cost: 7, lower_bound: 2 })];
+        let incumbents = [None, Some(Incumbent { cost: Cost::new(7), lower_bound: Cost::new(2) })];
         let at = Timestamp::from_millis(-42);
         let events: Vec<Event> = KINDS
             .into_iter()

@@ -7,31 +7,58 @@ use serde_json::{Value, json};
 
 use super::{has_faults, read, scene, with};
 use crate::wire::*;
-use singulate_planner::plan::{
-    Answer, Deadlock, Grasp, LowerBound, Plan, Relocation, Statistics, Unplanned, Verdict, VerdictName,
-};
-use singulate_planner::scene::ObjectIndex;
+use singulate_planner::budget::Budget;
+use singulate_planner::check::{FaultCode, check};
+use singulate_planner::cost::Cost;
+use singulate_planner::paper::{Judged, plan_by};
+use singulate_planner::plan::{Answer, Statistics};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
-fn verdicts() -> Vec<Verdict> {
-    let (b, grasp) = (ObjectIndex::new(1), Grasp { yaw: 0.5, slack: 0.2 });
-    let bound = LowerBound { cost: 1, landmarks: vec![vec![b]] };
-    let (from, to) = (Point2::new(0.6, 0.2), Point2::new(1.1, 0.6));
-    let step = Relocation { object: b, from, to, grasp, release: grasp, gap: 0.031 };
-    let unplanned = Unplanned { bound: Some(bound.clone()), needed: Some(vec![b]) };
+fn statements() -> Vec<Statement> {
+    let (b, grasp) = (vec!["b".to_owned()], StatedGrasp { yaw: 0.5, slack: Some(0.2) });
+    let step = Step::PickPlace(PickPlace {
+        object: "b".to_owned(),
+        from: Some(Point2::new(0.6, 0.2).into()),
+        to: Point2::new(1.1, 0.6).into(),
+        grasp,
+        release: grasp,
+        gap: Some(0.031),
+    });
+    let (one, stated) = (Some(Cost::new(1)), Statement::timed_out());
+    let bounded = Statement { lower_bound: one, landmarks: Some(vec![b.clone()]), ..stated.clone() };
+    let deadlock = Some(Deadlock { blocked: vec!["a".to_owned(), "b".to_owned()], core: vec!["a".to_owned()] });
     vec![
-        Verdict::Graspable(grasp),
-        Verdict::Relocate(Plan { relocations: vec![step], target_grasp: grasp, bound: Some(bound) }),
-        Verdict::Deadlock(Some(Deadlock { blocked: vec![ObjectIndex::new(0), b], core: vec![ObjectIndex::new(0)] })),
-        Verdict::NoSpace(unplanned.clone()),
-        Verdict::TimedOut(unplanned),
+        Statement {
+            verdict: Some(Verdict::Graspable),
+            target_grasp: Some(grasp),
+            cost: Some(Cost::ZERO),
+            optimal: Some(true),
+            ..stated
+        },
+        Statement {
+            verdict: Some(Verdict::Relocate),
+            relocations: Some(vec![step]),
+            target_grasp: Some(grasp),
+            cost: one,
+            optimal: Some(true),
+            ..bounded.clone()
+        },
+        Statement { verdict: Some(Verdict::Deadlock), relocations: Some(Vec::new()), deadlock, ..Statement::default() },
+        Statement { verdict: Some(Verdict::NoSpace), needed: Some(b.clone()), ..bounded.clone() },
+        Statement { needed: Some(b), ..bounded },
     ]
+}
+
+fn judged(statement: Statement) -> Judged {
+    let statistics = Statistics { knowledge: Duration::from_micros(40), ..Statistics::default() };
+    Answer { statement, statistics }.into()
 }
 
 fn bodies() -> Vec<Value> {
     let request = read(&scene().to_string()).unwrap();
-    let statistics = Statistics { knowledge: Duration::from_micros(40), ..Statistics::default() };
-    let answers = verdicts().into_iter().map(|verdict| Answer { verdict, warnings: Vec::new(), statistics });
-    answers.map(|answer| serde_json::to_value(AnswerBody::new(&request, &answer)).unwrap()).collect()
+    let body = |statement| serde_json::to_value(AnswerBody::new(&request, &judged(statement))).unwrap();
+    statements().into_iter().map(body).collect()
 }
 
 #[test]
@@ -56,24 +83,39 @@ fn every_verdict_is_written_with_every_field() {
     }
 }
 
+/// So what the checker has seen is what is served, field by field.
 #[test]
-fn an_answer_as_served_reads_as_a_claim() {
-    let names = [
-        VerdictName::Graspable,
-        VerdictName::Relocate,
-        VerdictName::Deadlock,
-        VerdictName::NoSpace,
-        VerdictName::TimedOut,
-    ];
+fn an_answer_as_served_reads_as_the_statement_that_was_checked() {
     let request = read(&scene().to_string()).unwrap();
-    for (body, name) in bodies().into_iter().zip(names) {
-        let claim = read_plan(body.to_string().as_bytes(), &request.scene).unwrap();
-        assert_eq!(claim.verdict, Some(name));
+    for statement in statements() {
+        let body = serde_json::to_value(AnswerBody::new(&request, &judged(statement.clone()))).unwrap();
+        assert_eq!(read_plan(body.to_string().as_bytes(), &request.scene).unwrap(), statement);
         let both = json!({"scene": scene(), "plan": body}).to_string();
-        assert_eq!(read_verify(both.as_bytes(), &RequestLimits::default()).unwrap().claim, claim);
+        assert_eq!(read_verify(both.as_bytes(), &RequestLimits::default()).unwrap().statement, statement);
     }
     let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#, &request.scene).unwrap();
     assert_eq!((short.verdict, short.cost, short.target_grasp.unwrap().yaw), (None, None, 1.0));
+}
+
+#[test]
+fn an_answer_that_is_served_with_from_and_to_swapped_fails_its_check() {
+    let pressed = json!([{"id": "a", "x": 0.3, "y": 0.3, "radius": 0.06}, {"id": "b", "x": 0.43, "y": 0.3, "radius": 0.06},
+        {"id": "c", "x": 0.17, "y": 0.3, "radius": 0.06}, {"id": "d", "x": 0.3, "y": 0.43, "radius": 0.06},
+        {"id": "e", "x": 0.3, "y": 0.17, "radius": 0.06}]);
+    let request = read(&with("/objects", pressed).to_string()).unwrap();
+    let budget = Budget::unlimited();
+    let planned = plan_by(&request.methods, &request.scene, &request.settings, &budget, SILENT).unwrap();
+    assert!(check(&request.scene, planned.statement(), &budget).faults.is_empty());
+    let mut swapped = planned;
+    for Step::PickPlace(step) in swapped.answer.statement.relocations.iter_mut().flatten() {
+        let from = step.from.replace(step.to).unwrap();
+        step.to = from;
+    }
+    assert!(!swapped.statement().steps().is_empty());
+    let served = serde_json::to_string(&AnswerBody::new(&request, &swapped)).unwrap();
+    for stated in [swapped.statement(), &read_plan(served.as_bytes(), &request.scene).unwrap()] {
+        assert!(check(&request.scene, stated, &budget).has(FaultCode::WrongFrom));
+    }
 }
 
 #[track_caller]

@@ -5,7 +5,7 @@ use proptest::sample::{select, subsequence};
 use serde_json::{Value, json};
 
 use super::{scene, with};
-use crate::wire::{RequestLimits, claim, job_request, request, typed};
+use crate::wire::{RequestLimits, job_request, request, statement, typed};
 
 pub(super) const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
  "keep_out": [{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]},
@@ -78,7 +78,7 @@ fn compare(scene: &str) {
     agree(job_request::sound(scene.as_bytes(), &limits), job_request::walked(scene.as_bytes(), &limits), scene);
     let body =
         format!(r#"{{"plan": {{"relocations": [], "target_grasp": {{"yaw": 1}}, "target": "a"}}, "scene": {scene}}}"#);
-    agree(claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits), &body);
+    agree(statement::sound(body.as_bytes(), &limits), statement::walked(body.as_bytes(), &limits), &body);
 }
 
 proptest! {
@@ -116,7 +116,7 @@ fn a_plan_is_nested_as_deep_as_its_body_may_be() {
         let plan = format!(r#"{{"relocations": [], "target_grasp": {{"yaw": 1}}, "statistics": {{"\"[": {nested}}}}}"#);
         let body = format!(r#"{{"plan": {plan}, "scene": {SOUND}}}"#);
         let limits = RequestLimits::default();
-        let (quick, walked) = (claim::sound(body.as_bytes(), &limits), claim::walked(body.as_bytes(), &limits));
+        let (quick, walked) = (statement::sound(body.as_bytes(), &limits), statement::walked(body.as_bytes(), &limits));
         assert_eq!(quick.is_some(), walked.is_ok(), "{deep}");
     }
 }

@@ -2,8 +2,9 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use singulate_planner::plan::check::FaultCode::{self, *};
-use singulate_planner::plan::{Claim, ClaimedRelocation, VerdictName};
+use singulate_planner::check::FaultCode::{self, *};
+use singulate_planner::cost::Cost;
+use singulate_planner::statement::{PickPlace, Statement, Step, Verdict};
 
 use super::scenes::*;
 
@@ -11,27 +12,27 @@ use super::scenes::*;
 fn the_plan_without_a_mutation_holds() {
     let scene = gate_with_posts();
     assert_valid(&scene, &gate_plan());
-    assert_eq!(judge(&scene, &gate_plan()).proven_bound, 3);
+    assert_eq!(judge(&scene, &gate_plan()).proven_bound, Cost::new(3));
 }
 
 /// The mutant's faults are of these kinds and no others.
 #[track_caller]
-fn mutant(mutate: impl FnOnce(&mut Claim), expected: &[FaultCode]) {
-    let mut claim = gate_plan();
-    mutate(&mut claim);
-    let report = judge(&gate_with_posts(), &claim);
+fn mutant(mutate: impl FnOnce(&mut Statement), expected: &[FaultCode]) {
+    let mut stated = gate_plan();
+    mutate(&mut stated);
+    let report = judge(&gate_with_posts(), &stated);
     assert_eq!(codes(&report), expected, "{:#?}", report.faults);
 }
 
-fn steps(claim: &mut Claim) -> &mut Vec<ClaimedRelocation> {
-    claim.relocations.as_mut().expect("a plan with steps")
+fn steps(stated: &mut Statement) -> &mut Vec<Step> {
+    stated.relocations.as_mut().expect("a plan with steps")
 }
 
 #[track_caller]
-fn mutant_step(at: usize, mutate: impl FnOnce(&mut ClaimedRelocation), expected: &[FaultCode]) {
+fn mutant_step(at: usize, mutate: impl FnOnce(&mut PickPlace), expected: &[FaultCode]) {
     mutant(
-        |claim| {
-            let step = &mut steps(claim)[at];
+        |stated| {
+            let step = step_mut(stated, at);
             step.gap = None;
             mutate(step);
         },
@@ -42,9 +43,9 @@ fn mutant_step(at: usize, mutate: impl FnOnce(&mut ClaimedRelocation), expected:
 #[test]
 fn two_dependent_steps_swapped_are_seen() {
     mutant(
-        |claim| {
-            steps(claim).swap(0, 1);
-            steps(claim).iter_mut().for_each(|step| step.gap = None);
+        |stated| {
+            steps(stated).swap(0, 1);
+            steps(stated).iter_mut().for_each(|Step::PickPlace(step)| step.gap = None);
         },
         &[GraspBlocked],
     );
@@ -53,9 +54,9 @@ fn two_dependent_steps_swapped_are_seen() {
 #[test]
 fn a_needed_step_left_out_is_seen() {
     mutant(
-        |claim| {
-            steps(claim).pop();
-            (claim.cost, claim.lower_bound, claim.optimal, claim.landmarks) = (None, None, None, None);
+        |stated| {
+            steps(stated).pop();
+            (stated.cost, stated.lower_bound, stated.optimal, stated.landmarks) = (None, None, None, None);
         },
         &[TargetBlocked],
     );
@@ -63,20 +64,20 @@ fn a_needed_step_left_out_is_seen() {
 
 #[test]
 fn a_place_one_millimetre_into_a_neighbour_is_seen() {
-    mutant_step(1, |step| step.to.x += 1e-3, &[TooClose]);
+    mutant_step(1, |step| step.to.at.x += 1e-3, &[TooClose]);
 }
 
 #[test]
 fn a_yaw_off_its_interval_is_seen() {
     mutant_step(1, |step| step.grasp.yaw = 1.0, &[GraspBlocked]);
     mutant_step(1, |step| step.release.yaw = 0.0, &[ReleaseBlocked]);
-    mutant(|claim| claim.target_grasp = Some(grasp(FRAC_PI_2, 0.0)), &[TargetBlocked]);
+    mutant(|stated| stated.target_grasp = Some(grasp(FRAC_PI_2, 0.0)), &[TargetBlocked]);
 }
 
 #[test]
 fn a_slack_past_the_free_interval_is_seen() {
     mutant_step(0, |step| step.grasp.slack = Some(0.2), &[GraspBlocked]);
-    mutant(|claim| claim.target_grasp = Some(grasp(0.0, 0.9)), &[TargetBlocked]);
+    mutant(|stated| stated.target_grasp = Some(grasp(0.0, 0.9)), &[TargetBlocked]);
 }
 
 #[test]
@@ -87,23 +88,24 @@ fn a_slack_that_no_yaw_has_is_seen() {
 
 #[test]
 fn a_place_over_the_edge_is_seen() {
-    mutant_step(2, |step| step.to.x += 1e-3, &[OffTable]);
-    mutant_step(2, |step| step.to.y = -5.0, &[OffTable]);
+    mutant_step(2, |step| step.to.at.x += 1e-3, &[OffTable]);
+    mutant_step(2, |step| step.to.at.y = -5.0, &[OffTable]);
 }
 
 #[test]
 fn a_place_in_a_keep_out_is_seen() {
-    mutant_step(0, |step| step.to.x -= 1e-3, &[InKeepOut]);
-    mutant_step(0, |step| step.to.x = 0.12, &[InKeepOut]);
+    mutant_step(0, |step| step.to.at.x -= 1e-3, &[InKeepOut]);
+    mutant_step(0, |step| step.to.at.x = 0.12, &[InKeepOut]);
 }
 
 #[test]
 fn a_moved_fixed_object_is_seen() {
     let forbidden = |object: &str| {
         let step = step(object, [0.3, 0.3], 0.0, 0.0);
-        move |claim: &mut Claim| {
-            steps(claim).push(step);
-            (claim.cost, claim.lower_bound, claim.optimal) = (Some(4), Some(3), Some(false));
+        move |stated: &mut Statement| {
+            steps(stated).push(step);
+            let bound = Some(Cost::new(3));
+            (stated.cost, stated.lower_bound, stated.optimal) = (Some(Cost::new(4)), bound, Some(false));
         }
     };
     mutant(forbidden("north"), &[FixedObjectMoved]);
@@ -113,7 +115,7 @@ fn a_moved_fixed_object_is_seen() {
 
 #[test]
 fn a_wrong_start_is_seen() {
-    mutant_step(1, |step| step.from.as_mut().unwrap().y += 1e-6, &[WrongFrom]);
+    mutant_step(1, |step| step.from.as_mut().unwrap().at.y += 1e-6, &[WrongFrom]);
 }
 
 #[test]
@@ -126,7 +128,7 @@ fn a_wrong_gap_is_seen() {
 fn a_forged_landmark_is_seen() {
     let add = |members: &[&str]| {
         let forged = ids(members);
-        move |claim: &mut Claim| claim.landmarks.as_mut().unwrap().push(forged)
+        move |stated: &mut Statement| stated.landmarks.as_mut().unwrap().push(forged)
     };
     mutant(add(&["far"]), &[LandmarkRefuted]);
     mutant(add(&[]), &[BadLandmark]);
@@ -139,68 +141,68 @@ fn a_forged_landmark_is_seen() {
 
 #[test]
 fn a_bound_one_too_high_is_seen() {
-    mutant(|claim| claim.lower_bound = Some(4), &[BoundUnproven, BoundAboveCost, WrongOptimal]);
-    mutant(|claim| claim.landmarks.as_mut().unwrap().truncate(2), &[BoundUnproven]);
-    mutant(|claim| claim.landmarks = None, &[BoundUnproven]);
-    mutant(|claim| (claim.landmarks, claim.lower_bound) = (None, None), &[BoundUnproven]);
+    mutant(|stated| stated.lower_bound = Some(Cost::new(4)), &[BoundUnproven, BoundAboveCost, WrongOptimal]);
+    mutant(|stated| stated.landmarks.as_mut().unwrap().truncate(2), &[BoundUnproven]);
+    mutant(|stated| stated.landmarks = None, &[BoundUnproven]);
+    mutant(|stated| (stated.landmarks, stated.lower_bound) = (None, None), &[BoundUnproven]);
 }
 
-fn with_a_needless_move(claim: &mut Claim) {
-    steps(claim).push(step("far", [0.3, 0.3], 1.5, 0.0));
-    claim.cost = Some(4);
+fn with_a_needless_move(stated: &mut Statement) {
+    steps(stated).push(step("far", [0.3, 0.3], 1.5, 0.0));
+    stated.cost = Some(Cost::new(4));
 }
 
 #[test]
 fn a_needless_move_in_an_optimal_plan_is_seen() {
     mutant(with_a_needless_move, &[WrongOptimal]);
-    let raised = |claim: &mut Claim| {
-        with_a_needless_move(claim);
-        claim.lower_bound = Some(4);
+    let raised = |stated: &mut Statement| {
+        with_a_needless_move(stated);
+        stated.lower_bound = Some(Cost::new(4));
     };
     mutant(raised, &[BoundUnproven]);
     // Said plainly it is no fault.
-    let honest = |claim: &mut Claim| {
-        with_a_needless_move(claim);
-        claim.optimal = Some(false);
+    let honest = |stated: &mut Statement| {
+        with_a_needless_move(stated);
+        stated.optimal = Some(false);
     };
     mutant(honest, &[]);
 }
 
 #[test]
 fn an_optimal_plan_said_not_to_be_is_seen() {
-    mutant(|claim| claim.optimal = Some(false), &[WrongOptimal]);
-    mutant(|claim| (claim.optimal, claim.lower_bound) = (Some(false), Some(2)), &[WrongOptimal]);
-    let contradicts = |claim: &mut Claim| (claim.optimal, claim.landmarks) = (Some(false), None);
+    mutant(|stated| stated.optimal = Some(false), &[WrongOptimal]);
+    mutant(|stated| (stated.optimal, stated.lower_bound) = (Some(false), Some(Cost::new(2))), &[WrongOptimal]);
+    let contradicts = |stated: &mut Statement| (stated.optimal, stated.landmarks) = (Some(false), None);
     mutant(contradicts, &[BoundUnproven, WrongOptimal]);
 }
 
 #[test]
 fn a_wrong_cost_is_seen() {
-    mutant(|claim| claim.cost = Some(2), &[WrongCost]);
+    mutant(|stated| stated.cost = Some(Cost::new(2)), &[WrongCost]);
 }
 
 #[test]
 fn parts_that_do_not_fit_the_verdict_are_seen() {
-    mutant(|claim| claim.target_grasp = None, &[MissingPart]);
-    mutant(|claim| claim.relocations = None, &[MissingPart, TargetBlocked]);
-    mutant(|claim| claim.needed = Some(ids(&["cap", "west", "east"])), &[UnexpectedPart]);
-    mutant(|claim| claim.verdict = Some(VerdictName::NoSpace), &[UnexpectedPart]);
-    mutant(|claim| claim.verdict = Some(VerdictName::Graspable), &[UnexpectedPart, WrongCost]);
-    mutant(|claim| claim.verdict = Some(VerdictName::Deadlock), &[UnexpectedPart, MissingPart]);
+    mutant(|stated| stated.target_grasp = None, &[MissingPart]);
+    mutant(|stated| stated.relocations = None, &[MissingPart, TargetBlocked]);
+    mutant(|stated| stated.needed = Some(ids(&["cap", "west", "east"])), &[UnexpectedPart]);
+    mutant(|stated| stated.verdict = Some(Verdict::NoSpace), &[UnexpectedPart]);
+    mutant(|stated| stated.verdict = Some(Verdict::Graspable), &[UnexpectedPart, WrongCost]);
+    mutant(|stated| stated.verdict = Some(Verdict::Deadlock), &[UnexpectedPart, MissingPart]);
 }
 
 #[test]
 fn numbers_that_no_table_holds_are_seen() {
     for wild in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
         mutant(
-            |claim| {
-                steps(claim).push(step("far", [wild, 0.3], 1.5, 0.0));
-                (claim.cost, claim.optimal) = (Some(4), Some(false));
+            |stated| {
+                steps(stated).push(step("far", [wild, 0.3], 1.5, 0.0));
+                (stated.cost, stated.optimal) = (Some(Cost::new(4)), Some(false));
             },
             &[NumberOutOfRange],
         );
         mutant_step(1, |step| step.grasp.yaw = wild, &[NumberOutOfRange]);
-        mutant_step(1, |step| step.from.as_mut().unwrap().x = wild, &[WrongFrom]);
+        mutant_step(1, |step| step.from.as_mut().unwrap().at.x = wild, &[WrongFrom]);
         mutant_step(1, |step| step.gap = Some(wild), &[WrongGap]);
     }
     mutant_step(1, |step| step.release.slack = Some(f64::NAN), &[NumberOutOfRange]);
@@ -209,10 +211,11 @@ fn numbers_that_no_table_holds_are_seen() {
 
 #[test]
 fn a_fault_names_its_step_and_its_object() {
-    let mut claim = gate_plan();
-    steps(&mut claim)[1].to.x += 1e-3;
-    steps(&mut claim)[1].gap = None;
-    let report = judge(&gate_with_posts(), &claim);
+    let mut stated = gate_plan();
+    let step = step_mut(&mut stated, 1);
+    step.to.at.x += 1e-3;
+    step.gap = None;
+    let report = judge(&gate_with_posts(), &stated);
     let fault = &report.faults[0];
     assert_eq!((fault.code.name(), fault.step, fault.object.as_deref()), ("too_close", Some(1), Some("west")));
     assert!(fault.detail.contains("'far'"), "{}", fault.detail);

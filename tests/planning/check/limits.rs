@@ -4,10 +4,11 @@ use core::cell::Cell;
 use core::time::Duration;
 
 use singulate_planner::budget::{Budget, Clock};
-use singulate_planner::plan::check::FaultCode::*;
-use singulate_planner::plan::check::{MAX_FAULTS, check};
-use singulate_planner::plan::{Claim, ClaimedDeadlock, ClaimedGrasp, VerdictName};
+use singulate_planner::check::FaultCode::*;
+use singulate_planner::check::{MAX_FAULTS, check};
+use singulate_planner::cost::Cost;
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::{Deadlock, StatedGrasp, Statement, Verdict};
 
 use super::scenes::*;
 
@@ -43,21 +44,21 @@ fn honeycomb(columns: u32, rows: u32) -> Scene {
     builder.build(&format!("d{}", columns + 1))
 }
 
-fn all_locked(scene: &Scene) -> Claim {
+fn all_locked(scene: &Scene) -> Statement {
     let all: Vec<String> = scene.objects().iter().map(|object| object.id().to_owned()).collect();
-    let deadlock = Some(ClaimedDeadlock { blocked: all.clone(), core: all });
-    Claim { verdict: Some(VerdictName::Deadlock), deadlock, ..Claim::default() }
+    let deadlock = Some(Deadlock { blocked: all.clone(), core: all });
+    Statement { verdict: Some(Verdict::Deadlock), deadlock, ..Statement::default() }
 }
 
 #[test]
 fn a_lock_that_is_not_checked_to_its_end_is_not_confirmed() {
     let scene = honeycomb(20, 20);
-    let claim = all_locked(&scene);
-    assert_valid(&scene, &claim);
+    let stated = all_locked(&scene);
+    assert_valid(&scene, &stated);
     let mut interrupted = 0;
     for deadline in 1..200 {
         let clock = Ticking::default();
-        let report = check(&scene, &claim, &Budget::new(&clock, Duration::from_millis(deadline)));
+        let report = check(&scene, &stated, &Budget::new(&clock, Duration::from_millis(deadline)));
         if !report.interrupted {
             assert!(report.faults.is_empty());
             break;
@@ -70,34 +71,34 @@ fn a_lock_that_is_not_checked_to_its_end_is_not_confirmed() {
 }
 
 /// The proof for the gate, with its three landmarks repeated until there are `landmarks`.
-fn bounded(landmarks: usize) -> Claim {
+fn bounded(landmarks: usize) -> Statement {
     let singles = ["cap", "west", "east"].map(|id| ids(&[id]));
     let landmarks = (0..landmarks).map(|n| singles[n % 3].clone()).collect();
     let needed = Some(ids(&["cap", "west", "east"]));
-    Claim { lower_bound: Some(3), landmarks: Some(landmarks), needed, ..Claim::default() }
+    Statement { lower_bound: Some(Cost::new(3)), landmarks: Some(landmarks), needed, ..Statement::default() }
 }
 
 #[test]
 fn a_bound_that_is_not_checked_to_its_end_is_not_confirmed() {
     let scene = gate_with_posts();
     // So many copies that the budget is looked at while they are read.
-    let claim = bounded(3000);
-    assert_valid(&scene, &claim);
-    let ended = check(&scene, &claim, &Budget::new(&Ticking::default(), Duration::ZERO));
-    assert!(ended.interrupted && ended.proven_bound == 0);
+    let stated = bounded(3000);
+    assert_valid(&scene, &stated);
+    let ended = check(&scene, &stated, &Budget::new(&Ticking::default(), Duration::ZERO));
+    assert!(ended.interrupted && ended.proven_bound == Cost::ZERO);
     assert_eq!(codes(&ended), [BoundUnconfirmed]);
     for deadline in 1..100 {
         let clock = Ticking::default();
-        let report = check(&scene, &claim, &Budget::new(&clock, Duration::from_millis(deadline)));
-        assert!(report.proven_bound <= 3);
-        assert_eq!(report.proven_bound < 3, codes(&report) == [BoundUnconfirmed]);
+        let report = check(&scene, &stated, &Budget::new(&clock, Duration::from_millis(deadline)));
+        assert!(report.proven_bound <= Cost::new(3));
+        assert_eq!(report.proven_bound < Cost::new(3), codes(&report) == [BoundUnconfirmed]);
     }
 }
 
 #[test]
 fn a_short_plan_is_replayed_even_when_time_is_up() {
-    let claim = Claim { landmarks: None, lower_bound: None, optimal: None, ..gate_plan() };
-    let report = check(&gate_with_posts(), &claim, &Budget::new(&Ticking::default(), Duration::ZERO));
+    let stated = Statement { landmarks: None, lower_bound: None, optimal: None, ..gate_plan() };
+    let report = check(&gate_with_posts(), &stated, &Budget::new(&Ticking::default(), Duration::ZERO));
     assert!(report.faults.is_empty() && !report.interrupted);
 }
 
@@ -107,9 +108,9 @@ fn a_pile_of_steps_ends_with_the_budget() {
     let inner: Vec<String> = scene.objects().iter().filter(|object| !object.fixed()).map(|o| o.id().into()).collect();
     // Everything is put on one heap, again and again.
     let steps = (0..10_000).map(|n| step(&inner[1 + n % (inner.len() - 1)], [60.0, 60.0], 0.0, 0.0)).collect();
-    let target_grasp = Some(ClaimedGrasp { yaw: 0.0, slack: None });
-    let claim = Claim { relocations: Some(steps), target_grasp, ..Claim::default() };
-    let report = check(&scene, &claim, &Budget::new(&Ticking::default(), Duration::from_millis(50)));
+    let target_grasp = Some(StatedGrasp { yaw: 0.0, slack: None });
+    let stated = Statement { relocations: Some(steps), target_grasp, ..Statement::default() };
+    let report = check(&scene, &stated, &Budget::new(&Ticking::default(), Duration::from_millis(50)));
     assert!(report.interrupted);
     assert_eq!(report.faults.len(), MAX_FAULTS);
 }

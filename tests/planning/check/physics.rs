@@ -2,20 +2,20 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use singulate_planner::plan::check::FaultCode::{self, *};
-use singulate_planner::plan::{Claim, VerdictName};
+use singulate_planner::check::FaultCode::{self, *};
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::{StatedGrasp, Statement, Step, Verdict};
 
 use super::scenes::*;
 
-fn just_grasp(yaw: f64, slack: Option<f64>) -> Claim {
-    let target_grasp = Some(singulate_planner::plan::ClaimedGrasp { yaw, slack });
-    Claim { target_grasp, ..Claim::default() }
+fn just_grasp(yaw: f64, slack: Option<f64>) -> Statement {
+    let target_grasp = Some(StatedGrasp { yaw, slack });
+    Statement { target_grasp, ..Statement::default() }
 }
 
 #[track_caller]
-fn expect(scene: &Scene, claim: &Claim, expected: &[FaultCode]) {
-    let report = judge(scene, claim);
+fn expect(scene: &Scene, stated: &Statement, expected: &[FaultCode]) {
+    let report = judge(scene, stated);
     assert_eq!(codes(&report), expected, "{:#?}", report.faults);
 }
 
@@ -46,35 +46,35 @@ fn the_tip_is_free_where_only_the_corners_are_blocked() {
 #[test]
 fn the_whole_band_of_the_yaw_tolerance_must_be_free() {
     let scene = |tolerance| gate().fix("north").fix("south").yaw_tolerance(tolerance).build("target");
-    let mut claim = gate_plan();
+    let mut stated = gate_plan();
     // The target's yaw may be off by 0.81 rad, `cap`'s by 0.168.
-    assert_valid(&scene(0.1), &claim);
-    expect(&scene(0.15), &claim, &[WrongSlack]);
-    for step in claim.relocations.as_mut().unwrap() {
+    assert_valid(&scene(0.1), &stated);
+    expect(&scene(0.15), &stated, &[WrongSlack]);
+    for Step::PickPlace(step) in stated.relocations.as_mut().unwrap() {
         (step.grasp.slack, step.release.slack) = (None, None);
     }
-    assert_valid(&scene(0.15), &claim);
-    expect(&scene(0.2), &claim, &[GraspBlocked]);
+    assert_valid(&scene(0.15), &stated);
+    expect(&scene(0.2), &stated, &[GraspBlocked]);
 }
 
 #[test]
 fn a_tolerance_of_half_a_turn_matters_only_where_something_blocks() {
     let alone = Builder::new(2).yaw_tolerance(PI).disc("t", 1.0, 1.0, 0.05).build("t");
-    let claim = Claim { verdict: Some(VerdictName::Graspable), ..just_grasp(0.3, Some(FRAC_PI_2)) };
-    expect(&alone, &claim, &[]);
+    let stated = Statement { verdict: Some(Verdict::Graspable), ..just_grasp(0.3, Some(FRAC_PI_2)) };
+    expect(&alone, &stated, &[]);
     let pair = Builder::new(2).yaw_tolerance(PI).disc("t", 1.0, 1.0, 0.05).disc("o", 1.1, 1.0, 0.05).build("t");
-    expect(&pair, &claim, &[TargetBlocked]);
+    expect(&pair, &stated, &[TargetBlocked]);
 }
 
 #[test]
 fn a_yaw_is_judged_modulo_the_turn_between_fingers() {
     let scene = gate_with_posts();
     for turns in [-3.0, -1.0, 1.0, 2.0, 1e5] {
-        let mut claim = gate_plan();
-        claim.target_grasp = Some(grasp(turns * PI, 0.7));
-        assert_valid(&scene, &claim);
-        claim.relocations.as_mut().unwrap()[1].grasp.yaw += turns * TAU;
-        assert_valid(&scene, &claim);
+        let mut stated = gate_plan();
+        stated.target_grasp = Some(grasp(turns * PI, 0.7));
+        assert_valid(&scene, &stated);
+        step_mut(&mut stated, 1).grasp.yaw += turns * TAU;
+        assert_valid(&scene, &stated);
     }
 }
 
@@ -96,9 +96,9 @@ fn near_pair() -> Scene {
         .build("t")
 }
 
-fn moves(steps: &[(&str, [f64; 2])]) -> Claim {
+fn moves(steps: &[(&str, [f64; 2])]) -> Statement {
     let steps = steps.iter().map(|(object, to)| step(object, *to, FRAC_PI_2, FRAC_PI_2)).collect();
-    Claim { relocations: Some(steps), ..just_grasp(0.0, None) }
+    Statement { relocations: Some(steps), ..just_grasp(0.0, None) }
 }
 
 #[test]
@@ -125,13 +125,13 @@ fn discs_that_overlap_at_the_start_may_not_overlap_again() {
 #[test]
 fn an_object_may_move_twice_and_starts_where_it_was_put() {
     let scene = near_pair();
-    let mut claim = moves(&[("a", [0.2, 0.2]), ("e", [0.5, 0.5]), ("a", [0.5, 1.5])]);
-    assert_eq!(codes(&judge(&scene, &claim)), [TooClose], "e does not fit beside b");
-    claim = moves(&[("a", [0.2, 0.2]), ("e", [0.49, 0.5]), ("a", [0.5, 1.5])]);
-    claim.relocations.as_mut().unwrap()[2].from = Some(nalgebra::Point2::new(0.2, 0.2));
-    expect(&scene, &claim, &[]);
-    claim.relocations.as_mut().unwrap()[2].from = Some(nalgebra::Point2::new(0.5, 0.5));
-    expect(&scene, &claim, &[WrongFrom]);
+    let mut stated = moves(&[("a", [0.2, 0.2]), ("e", [0.5, 0.5]), ("a", [0.5, 1.5])]);
+    assert_eq!(codes(&judge(&scene, &stated)), [TooClose], "e does not fit beside b");
+    stated = moves(&[("a", [0.2, 0.2]), ("e", [0.49, 0.5]), ("a", [0.5, 1.5])]);
+    step_mut(&mut stated, 2).from = Some(nalgebra::Point2::new(0.2, 0.2).into());
+    expect(&scene, &stated, &[]);
+    step_mut(&mut stated, 2).from = Some(nalgebra::Point2::new(0.5, 0.5).into());
+    expect(&scene, &stated, &[WrongFrom]);
 }
 
 #[test]
@@ -148,8 +148,8 @@ fn what_was_put_down_is_in_the_way_and_what_was_lifted_is_not() {
 
 #[test]
 fn only_what_is_stated_is_checked() {
-    let mut claim = Claim { relocations: gate_plan().relocations, ..Claim::default() };
-    claim.target_grasp = gate_plan().target_grasp;
-    assert_valid(&gate_with_posts(), &claim);
-    assert_valid(&gate_with_posts(), &Claim::default());
+    let mut stated = Statement { relocations: gate_plan().relocations, ..Statement::default() };
+    stated.target_grasp = gate_plan().target_grasp;
+    assert_valid(&gate_with_posts(), &stated);
+    assert_valid(&gate_with_posts(), &Statement::default());
 }

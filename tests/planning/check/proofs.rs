@@ -1,20 +1,22 @@
 //! Bounds, locks and derivations.
 
-use singulate_planner::plan::check::FaultCode::{self, *};
-use singulate_planner::plan::{Claim, ClaimedDeadlock, VerdictName};
+use singulate_planner::check::FaultCode::{self, *};
+use singulate_planner::cost::Cost;
 use singulate_planner::scene::Scene;
+use singulate_planner::statement::{Deadlock, Statement, Verdict};
 
 use super::scenes::*;
 
 #[track_caller]
-fn expect(scene: &Scene, claim: &Claim, expected: &[FaultCode]) {
-    let report = judge(scene, claim);
+fn expect(scene: &Scene, stated: &Statement, expected: &[FaultCode]) {
+    let report = judge(scene, stated);
     assert_eq!(codes(&report), expected, "{:#?}", report.faults);
 }
 
-fn bound(lower_bound: u64, landmarks: &[&[&str]]) -> Claim {
+fn bound(lower_bound: u64, landmarks: &[&[&str]]) -> Statement {
     let landmarks = Some(landmarks.iter().map(|members| ids(members)).collect());
-    Claim { verdict: Some(VerdictName::TimedOut), lower_bound: Some(lower_bound), landmarks, ..Claim::default() }
+    let lower_bound = Some(Cost::new(lower_bound));
+    Statement { verdict: Some(Verdict::TimedOut), lower_bound, landmarks, ..Statement::default() }
 }
 
 #[test]
@@ -25,12 +27,12 @@ fn a_landmark_may_offer_a_choice() {
     expect(&scene, &bound(2, cross), &[]);
     expect(&scene, &bound(3, cross), &[BoundUnproven]);
     expect(&scene, &bound(1, &[&["west"]]), &[LandmarkRefuted, BoundUnproven]);
-    assert_eq!(judge(&scene, &bound(1, cross)).proven_bound, 2);
+    assert_eq!(judge(&scene, &bound(1, cross)).proven_bound, Cost::new(2));
 }
 
 #[test]
 fn a_refused_proof_carries_what_was_tried() {
-    let detail = |scene: &Scene, claim: &Claim| judge(scene, claim).faults[0].detail.clone();
+    let detail = |scene: &Scene, stated: &Statement| judge(scene, stated).faults[0].detail.clone();
     let refuted = detail(&gate().build("target"), &bound(1, &[&["west"]]));
     assert!(refuted.starts_with("landmark 0 can be left as it stands: the target is free at yaw "), "{refuted}");
     assert!(refuted.contains("'north'") && !refuted.contains("'west'"), "{refuted}");
@@ -43,39 +45,40 @@ fn a_landmark_is_judged_by_the_table_as_it_is_at_the_start() {
     // So wide a band that one disc near the target blocks it altogether.
     let scene = Builder::new(2).yaw_tolerance(1.5).disc("t", 1.0, 1.0, 0.05).disc("far", 0.3, 0.3, 0.05).build("t");
     let relocations = Some(vec![step("far", [1.12, 1.0], 0.0, 0.0)]);
-    let claim = Claim { verdict: None, relocations, target_grasp: Some(grasp(0.0, 1.57)), ..bound(1, &[&["far"]]) };
-    expect(&scene, &claim, &[ReleaseBlocked, TargetBlocked, LandmarkRefuted, BoundUnproven]);
+    let stated =
+        Statement { verdict: None, relocations, target_grasp: Some(grasp(0.0, 1.57)), ..bound(1, &[&["far"]]) };
+    expect(&scene, &stated, &[ReleaseBlocked, TargetBlocked, LandmarkRefuted, BoundUnproven]);
 }
 
 #[test]
 fn no_landmarks_prove_nothing() {
     let scene = gate_with_posts();
-    expect(&scene, &Claim { lower_bound: Some(0), ..Claim::default() }, &[]);
-    expect(&scene, &Claim { lower_bound: Some(1), ..Claim::default() }, &[BoundUnproven]);
-    expect(&scene, &Claim { optimal: Some(true), ..Claim::default() }, &[UnexpectedPart]);
+    expect(&scene, &Statement { lower_bound: Some(Cost::ZERO), ..Statement::default() }, &[]);
+    expect(&scene, &Statement { lower_bound: Some(Cost::new(1)), ..Statement::default() }, &[BoundUnproven]);
+    expect(&scene, &Statement { optimal: Some(true), ..Statement::default() }, &[UnexpectedPart]);
     // Without a plan there is no cost that a bound could meet.
-    let unplanned = Claim { relocations: Some(Vec::new()), optimal: Some(false), ..bound(0, &[]) };
+    let unplanned = Statement { relocations: Some(Vec::new()), optimal: Some(false), ..bound(0, &[]) };
     expect(&scene, &unplanned, &[]);
 }
 
 #[test]
 fn a_graspable_target_costs_nothing() {
     let scene = gate().build("far");
-    let claim = Claim {
-        verdict: Some(VerdictName::Graspable),
+    let stated = Statement {
+        verdict: Some(Verdict::Graspable),
         relocations: Some(Vec::new()),
         target_grasp: Some(grasp(0.0, 1.57)),
-        cost: Some(0),
-        lower_bound: Some(0),
+        cost: Some(Cost::ZERO),
+        lower_bound: Some(Cost::ZERO),
         optimal: Some(true),
         landmarks: Some(Vec::new()),
-        ..Claim::default()
+        ..Statement::default()
     };
-    assert_valid(&scene, &claim);
-    expect(&scene, &Claim { cost: Some(1), ..claim.clone() }, &[WrongCost]);
-    expect(&scene, &Claim { optimal: Some(false), ..claim.clone() }, &[WrongOptimal]);
-    expect(&scene, &Claim { target_grasp: None, ..claim.clone() }, &[MissingPart]);
-    expect(&scene, &Claim { verdict: Some(VerdictName::Relocate), ..claim }, &[WrongCost]);
+    assert_valid(&scene, &stated);
+    expect(&scene, &Statement { cost: Some(Cost::new(1)), ..stated.clone() }, &[WrongCost]);
+    expect(&scene, &Statement { optimal: Some(false), ..stated.clone() }, &[WrongOptimal]);
+    expect(&scene, &Statement { target_grasp: None, ..stated.clone() }, &[MissingPart]);
+    expect(&scene, &Statement { verdict: Some(Verdict::Relocate), ..stated }, &[WrongCost]);
 }
 
 /// `east` can't be moved either, so nothing frees the target.
@@ -83,9 +86,9 @@ fn locked() -> Scene {
     gate().fix("north").fix("south").fix("east").build("target")
 }
 
-fn deadlock(blocked: &[&str], core: &[&str]) -> Claim {
-    let deadlock = Some(ClaimedDeadlock { blocked: ids(blocked), core: ids(core) });
-    Claim { verdict: Some(VerdictName::Deadlock), deadlock, ..Claim::default() }
+fn deadlock(blocked: &[&str], core: &[&str]) -> Statement {
+    let deadlock = Some(Deadlock { blocked: ids(blocked), core: ids(core) });
+    Statement { verdict: Some(Verdict::Deadlock), deadlock, ..Statement::default() }
 }
 
 const LOCK: [&str; 4] = ["target", "north", "south", "east"];
@@ -116,22 +119,22 @@ fn a_forged_lock_is_seen() {
 
 #[test]
 fn a_deadlock_comes_without_a_plan() {
-    let claim = Claim { relocations: gate_plan().relocations, ..deadlock(&LOCK, &LOCK) };
-    let report = judge(&locked(), &claim);
+    let stated = Statement { relocations: gate_plan().relocations, ..deadlock(&LOCK, &LOCK) };
+    let report = judge(&locked(), &stated);
     assert!(codes(&report).contains(&UnexpectedPart), "{:#?}", report.faults);
-    let silent = Claim { verdict: None, target_grasp: Some(grasp(0.0, 0.0)), ..deadlock(&LOCK, &LOCK) };
+    let silent = Statement { verdict: None, target_grasp: Some(grasp(0.0, 0.0)), ..deadlock(&LOCK, &LOCK) };
     expect(&locked(), &silent, &[UnexpectedPart, TargetBlocked]);
 }
 
 #[test]
 fn needed_objects_are_lifted_in_their_order() {
     let scene = gate_with_posts();
-    let needed = |names: &[&str]| Claim {
-        verdict: Some(VerdictName::NoSpace),
+    let needed = |names: &[&str]| Statement {
+        verdict: Some(Verdict::NoSpace),
         needed: Some(ids(names)),
-        lower_bound: Some(3),
+        lower_bound: Some(Cost::new(3)),
         landmarks: gate_plan().landmarks,
-        ..Claim::default()
+        ..Statement::default()
     };
     assert_valid(&scene, &needed(&["cap", "west", "east"]));
     assert_valid(&scene, &needed(&["east", "cap", "west", "far"]));
@@ -145,7 +148,7 @@ fn needed_objects_are_lifted_in_their_order() {
 #[test]
 fn nothing_is_needed_where_nothing_blocks_or_only_touches() {
     use core::f64::consts::FRAC_PI_2;
-    let nothing = Claim { needed: Some(Vec::new()), ..Claim::default() };
+    let nothing = Statement { needed: Some(Vec::new()), ..Statement::default() };
     let alone = Builder::new(2).yaw_tolerance(3.0).disc("t", 1.0, 1.0, 0.05).build("t");
     assert_valid(&alone, &nothing);
     // The outer corner passes in touch with the disc.

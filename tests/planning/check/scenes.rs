@@ -2,9 +2,10 @@
 
 use nalgebra::Point2;
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::{Checker, FaultCode, Report};
-use singulate_planner::plan::{Claim, ClaimedGrasp, ClaimedRelocation, VerdictName};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::check::{Checker, FaultCode, Report};
+use singulate_planner::cost::Cost;
+use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
+use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 pub(crate) struct Builder(SceneDraft);
 
@@ -48,7 +49,8 @@ impl Builder {
     }
 
     pub(crate) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
-        let object = ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), radius: Some(radius), fixed: false };
+        let object =
+            ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed: false };
         self.0.objects.push(object);
         self
     }
@@ -67,20 +69,30 @@ impl Builder {
     }
 }
 
-pub(crate) fn grasp(yaw: f64, slack: f64) -> ClaimedGrasp {
-    ClaimedGrasp { yaw, slack: Some(slack) }
+pub(crate) fn grasp(yaw: f64, slack: f64) -> StatedGrasp {
+    StatedGrasp { yaw, slack: Some(slack) }
 }
 
 /// A step that states nothing it need not.
-pub(crate) fn step(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> ClaimedRelocation {
-    ClaimedRelocation {
+pub(crate) fn step(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> Step {
+    Step::PickPlace(pick_place(object, to, grasp_yaw, release_yaw))
+}
+
+fn pick_place(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> PickPlace {
+    PickPlace {
         object: object.into(),
         from: None,
-        to: Point2::new(to[0], to[1]),
-        grasp: ClaimedGrasp { yaw: grasp_yaw, slack: None },
-        release: ClaimedGrasp { yaw: release_yaw, slack: None },
+        to: Point2::new(to[0], to[1]).into(),
+        grasp: StatedGrasp { yaw: grasp_yaw, slack: None },
+        release: StatedGrasp { yaw: release_yaw, slack: None },
         gap: None,
     }
+}
+
+/// One step of a plan, to make something of it wrong.
+pub(crate) fn step_mut(stated: &mut Statement, at: usize) -> &mut PickPlace {
+    let Step::PickPlace(step) = &mut stated.relocations.as_mut().expect("a plan with steps")[at];
+    step
 }
 
 pub(crate) fn ids(names: &[&str]) -> Vec<String> {
@@ -88,10 +100,10 @@ pub(crate) fn ids(names: &[&str]) -> Vec<String> {
 }
 
 /// What the checker says, the first time and, with all that it has learnt by then, the second.
-pub(crate) fn judge(scene: &Scene, claim: &Claim) -> Report {
+pub(crate) fn judge(scene: &Scene, stated: &Statement) -> Report {
     let mut checker = Checker::new(scene);
-    let report = checker.check(claim, &Budget::unlimited());
-    assert_eq!(checker.check(claim, &Budget::unlimited()), report);
+    let report = checker.check(stated, &Budget::unlimited());
+    assert_eq!(checker.check(stated, &Budget::unlimited()), report);
     report
 }
 
@@ -107,8 +119,8 @@ pub(crate) fn codes(report: &Report) -> Vec<FaultCode> {
 }
 
 #[track_caller]
-pub(crate) fn assert_valid(scene: &Scene, claim: &Claim) {
-    let report = judge(scene, claim);
+pub(crate) fn assert_valid(scene: &Scene, stated: &Statement) {
+    let report = judge(scene, stated);
     assert!(report.faults.is_empty() && !report.interrupted, "{:#?}", report.faults);
 }
 
@@ -133,28 +145,30 @@ pub(crate) fn gate_with_posts() -> Scene {
 
 /// The only three objects that need to go. `cap` ends in touch with the keep-out, `west` in touch with `far`, `east` in
 /// touch with the table's edge.
-pub(crate) fn gate_plan() -> Claim {
-    let full = |object: &str, from: [f64; 2], to: [f64; 2], pick: ClaimedGrasp, gap: f64| ClaimedRelocation {
-        from: Some(Point2::new(from[0], from[1])),
-        grasp: pick,
-        release: grasp(1.5, 0.1),
-        gap: Some(gap),
-        ..step(object, to, 0.0, 0.0)
+pub(crate) fn gate_plan() -> Statement {
+    let full = |object: &str, from: [f64; 2], to: [f64; 2], pick: StatedGrasp, gap: f64| {
+        Step::PickPlace(PickPlace {
+            from: Some(Point2::new(from[0], from[1]).into()),
+            grasp: pick,
+            release: grasp(1.5, 0.1),
+            gap: Some(gap),
+            ..pick_place(object, to, 0.0, 0.0)
+        })
     };
     // From the cap's new place the nearest disc is west; from east's it is south.
     let apart = |x: f64, y: f64, radii: f64| (x * x + y * y).sqrt() - radii;
-    Claim {
-        verdict: Some(VerdictName::Relocate),
+    Statement {
+        verdict: Some(Verdict::Relocate),
         relocations: Some(vec![
             full("cap", [0.838, 1.172], [0.3, 1.6], grasp(0.637, 0.1), apart(0.538, 0.6, 0.17)),
             full("west", [0.838, 1.0], [1.54, 1.7], grasp(1.5, 0.1), 0.0),
             full("east", [1.162, 1.0], [1.89, 0.4], grasp(1.5, 0.1), apart(0.89, 0.455, 0.2)),
         ]),
         target_grasp: Some(grasp(0.0, 0.7)),
-        cost: Some(3),
-        lower_bound: Some(3),
+        cost: Some(Cost::new(3)),
+        lower_bound: Some(Cost::new(3)),
         optimal: Some(true),
         landmarks: Some(vec![ids(&["cap"]), ids(&["east"]), ids(&["west"])]),
-        ..Claim::default()
+        ..Statement::default()
     }
 }

@@ -2,47 +2,50 @@
 
 use singulate::experiments::varied;
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::check::FaultCode::*;
-use singulate_planner::plan::{Claim, Settings, plan};
+use singulate_planner::check::FaultCode::*;
+use singulate_planner::cost::Cost;
+use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::{Scene, SceneLimits};
+use singulate_planner::search::SILENT;
+use singulate_planner::statement::{Statement, Step};
 
 use super::scenes::*;
 
-/// A scene and the claim of its answer.
-fn served(seed: u64) -> (Scene, Claim) {
+/// A scene and what its answer states.
+fn served(seed: u64) -> (Scene, Statement) {
     let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).expect("a sound scene");
-    let answer = plan(&scene, &Settings::default(), &Budget::unlimited()).expect("an answer that passes");
-    let claim = Claim::of(&scene, &answer);
-    assert_valid(&scene, &claim);
-    (scene, claim)
+    let answer = plan(&scene, &Settings::default(), &Budget::unlimited(), SILENT).expect("an answer that passes");
+    let stated = answer.statement;
+    assert_valid(&scene, &stated);
+    (scene, stated)
 }
 
 /// An optimal plan without one of its steps would be shorter than the shortest.
-fn shortened(scene: &Scene, claim: &Claim) {
-    let steps = claim.relocations.as_ref().expect("a plan");
+fn shortened(scene: &Scene, stated: &Statement) {
+    let steps = stated.relocations.as_ref().expect("a plan");
     for at in 0..steps.len() {
         let mut steps = steps.clone();
         steps.remove(at);
-        steps.iter_mut().for_each(|step| step.gap = None);
-        let shorter = Claim { relocations: Some(steps), target_grasp: claim.target_grasp, ..Claim::default() };
+        steps.iter_mut().for_each(|Step::PickPlace(step)| step.gap = None);
+        let shorter = Statement { relocations: Some(steps), target_grasp: stated.target_grasp, ..Statement::default() };
         let faults = codes(&judge(scene, &shorter));
-        assert!(!faults.is_empty(), "step {at} is needless: {claim:?}");
+        assert!(!faults.is_empty(), "step {at} is needless: {stated:?}");
     }
 }
 
 /// No landmarks prove more than the cost of a plan that holds.
-fn raised(scene: &Scene, claim: &Claim) {
-    let raised = Claim { lower_bound: claim.cost.map(|cost| cost + 1), ..claim.clone() };
+fn raised(scene: &Scene, stated: &Statement) {
+    let raised = Statement { lower_bound: stated.cost.map(|cost| cost + Cost::new(1)), ..stated.clone() };
     assert!(codes(&judge(scene, &raised)).contains(&BoundUnproven));
 }
 
 /// The core is the least of its kind, so no member can be missed.
-fn thinned(scene: &Scene, claim: &Claim) {
-    let deadlock = claim.deadlock.as_ref().expect("a deadlock");
+fn thinned(scene: &Scene, stated: &Statement) {
+    let deadlock = stated.deadlock.as_ref().expect("a deadlock");
     for at in 0..deadlock.core.len() {
         let mut thinner = deadlock.clone();
         thinner.core.remove(at);
-        let faults = codes(&judge(scene, &Claim { deadlock: Some(thinner), ..claim.clone() }));
+        let faults = codes(&judge(scene, &Statement { deadlock: Some(thinner), ..stated.clone() }));
         assert!(faults.contains(&LockMemberFree) || faults.contains(&LockWithoutTarget), "{at} of {deadlock:?}");
     }
 }
@@ -51,15 +54,15 @@ fn thinned(scene: &Scene, claim: &Claim) {
 fn no_served_answer_still_holds_with_less() {
     let (mut plans, mut locks) = (0, 0);
     for seed in 0..300 {
-        let (scene, claim) = served(seed);
-        if claim.deadlock.is_some() {
+        let (scene, stated) = served(seed);
+        if stated.deadlock.is_some() {
             locks += 1;
-            thinned(&scene, &claim);
-        } else if claim.relocations.as_ref().is_some_and(|steps| !steps.is_empty()) {
+            thinned(&scene, &stated);
+        } else if !stated.steps().is_empty() {
             plans += 1;
-            raised(&scene, &claim);
-            if claim.optimal == Some(true) {
-                shortened(&scene, &claim);
+            raised(&scene, &stated);
+            if stated.optimal == Some(true) {
+                shortened(&scene, &stated);
             }
         }
     }

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use singulate::api::{Engine, ServerSettings};
 use singulate_planner::budget::Budget;
-use singulate_planner::plan::{Answer, PlanError, Settings};
+use singulate_planner::paper::{Judged, Methods};
+use singulate_planner::plan::{PlanError, Settings};
 use singulate_planner::scene::Scene;
 
 use super::{others_are_served, send, served_meanwhile};

@@ -4,7 +4,8 @@ use nalgebra::Point2;
 
 use super::grid::Raster;
 use crate::budget::{Budget, Interrupted};
-use crate::scene::{Disc, Rectangle};
+use crate::paper::angles::radius;
+use crate::scene::{Footprint, Rectangle};
 
 /// The points nearer than `reach` to a rectangle; for a disc the rectangle is its centre.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +18,8 @@ pub(super) struct Blot {
 
 impl Blot {
     /// The points nearer than `beyond` (m) to the disc.
-    pub(super) fn disc(disc: &Disc, beyond: f64) -> Self {
-        Self { min: disc.centre, max: disc.centre, reach: disc.radius + beyond }
+    pub(super) fn disc(disc: &Footprint, beyond: f64) -> Self {
+        Self { min: disc.at(), max: disc.at(), reach: radius(disc) + beyond }
     }
 
     /// The points nearer than `reach` (m) to the rectangle.
@@ -78,14 +79,14 @@ mod tests {
             .disc("t", 1.4, 0.3, 0.2)
             .build("t");
         let raster = Raster::new(0.01, scene.table()).unwrap();
-        let blots = scene.objects().iter().map(|object| Blot::disc(&object.disc(), 0.013));
+        let blots = scene.objects().iter().map(|object| Blot::disc(&object.footprint(), 0.013));
         let areas = scene.table().keep_out().iter().map(|area| Blot::round(area, 0.072));
         let image = image(&raster, &blots.chain(areas).collect::<Vec<_>>(), &Budget::unlimited()).unwrap();
         let mut black = 0;
         for (column, row) in (0..raster.rows()).flat_map(|row| (0..raster.columns()).map(move |at| (at, row))) {
-            let pixel = |radius| Disc { centre: raster.centre(column, row), radius };
-            let near = scene.objects().iter().any(|object| object.disc().gap(&pixel(0.013)) < 0.0)
-                || scene.table().keep_out().iter().any(|area| area.outer_gap(&pixel(0.072)) < 0.0);
+            let pixel = |radius| Footprint::disc(raster.centre(column, row), radius);
+            let near = scene.objects().iter().any(|object| object.footprint().gap(&pixel(0.013)) < 0.0)
+                || scene.table().keep_out().iter().any(|area| pixel(0.072).gap_outside(area) < 0.0);
             assert_eq!(image[raster.at(column, row)], near, "{column} {row}");
             black += usize::from(near);
         }

@@ -27,10 +27,12 @@ pub use grid::{DEFAULT_RESOLUTION, Raster, TooFine};
 
 use nalgebra::Point2;
 
+use super::angles::radius;
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::{Grasp, Shadow, widest_grasp};
+use crate::geometry::{Grasp, widest_grasp};
+use crate::knowledge::GraspModel;
 use crate::placement::{Arrangement, INSIDE, Layout, Relocation};
-use crate::scene::{Disc, ObjectIndex, Scene};
+use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
 
 use blot::Blot;
 use convolution::Convolution;
@@ -49,7 +51,7 @@ pub fn reposition(
     scene: &Scene,
     order: &[ObjectIndex],
     raster: &Raster,
-    model: Shadow,
+    model: &dyn GraspModel,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     let mut table =
@@ -57,7 +59,7 @@ pub fn reposition(
     let mut relocations = Vec::with_capacity(order.len());
     for (at, &object) in order.iter().enumerate() {
         let Some(to) = table.place(object, &order[at + 1..], budget)? else { return Ok(None) };
-        relocations.push(table.relocate(object, to));
+        relocations.push(table.relocate(object, to.into()));
     }
     Ok(Some(Arrangement { relocations, target_grasp: table.grasp(scene.target()) }))
 }
@@ -75,14 +77,14 @@ impl Pictured<'_> {
         self.layout.grasp(object).unwrap_or(Grasp { yaw: 0.0, slack: 0.0 })
     }
 
-    fn relocate(&mut self, object: ObjectIndex, to: Point2<f64>) -> Relocation {
-        let (disc, grasp) = (self.layout.disc(object), self.grasp(object));
-        let placed = disc.at(to);
+    fn relocate(&mut self, object: ObjectIndex, to: Pose) -> Relocation {
+        let (footprint, grasp) = (self.layout.footprint(object), self.grasp(object));
+        let placed = footprint.moved_to(to);
         let release = widest_grasp(self.scene.gripper(), &self.layout.blocked(object, &placed, 0.0));
         let release = release.unwrap_or(Grasp { slack: 0.0, ..grasp });
         let gap = self.layout.gap(object, &placed);
         self.layout.put(object, to);
-        Relocation { object, from: disc.centre, to, grasp, release, gap }
+        Relocation { object, from: footprint.pose, to, grasp, release, gap }
     }
 
     /// The marked place farthest from the target; the first in row order among equals.
@@ -93,7 +95,7 @@ impl Pictured<'_> {
         budget: &Budget<'_>,
     ) -> Result<Option<Point2<f64>>, Interrupted> {
         let (raster, top) = (self.raster, self.scene.table().top());
-        let radius = self.layout.disc(object).radius;
+        let radius = radius(&self.layout.footprint(object));
         let edge = radius + INSIDE;
         let columns = raster.columns_between(top.min().x + edge, top.max().x - edge);
         let rows = raster.rows_between(top.min().y + edge, top.max().y - edge);
@@ -107,7 +109,7 @@ impl Pictured<'_> {
         self.convolution.run(&grown, &mask, budget)?;
         let gripper = self.scene.gripper();
         let least = threshold(radius, gripper.clearance(), gripper.period()) / WHITE * mask.pixels() as f64;
-        let target = self.layout.disc(self.scene.target()).centre;
+        let target = self.layout.footprint(self.scene.target()).at();
         let mut best: Option<(f64, Point2<f64>)> = None;
         for row in rows {
             budget.check()?;
@@ -123,8 +125,8 @@ impl Pictured<'_> {
         Ok(best.map(|(_, at)| at))
     }
 
-    fn others(&self, object: ObjectIndex) -> impl Iterator<Item = (ObjectIndex, Disc)> + '_ {
-        self.scene.indices().filter(move |&other| other != object).map(|other| (other, self.layout.disc(other)))
+    fn others(&self, object: ObjectIndex) -> impl Iterator<Item = (ObjectIndex, Footprint)> + '_ {
+        self.scene.indices().filter(move |&other| other != object).map(|other| (other, self.layout.footprint(other)))
     }
 
     /// Fig. 5c: the other objects grown by the clearance.
@@ -136,9 +138,9 @@ impl Pictured<'_> {
     /// The places where the object's centre may not be: too near to others, to keep-outs, or to objects still to be
     /// grasped.
     fn taken(&self, object: ObjectIndex, later: &[ObjectIndex]) -> Vec<Blot> {
-        let (gripper, radius) = (self.scene.gripper(), self.layout.disc(object).radius);
+        let (gripper, radius) = (self.scene.gripper(), radius(&self.layout.footprint(object)));
         let apart = radius + gripper.margin() + INSIDE;
-        let around = |object: &ObjectIndex| Blot::disc(&self.layout.disc(*object), apart + gripper.clearance());
+        let around = |object: &ObjectIndex| Blot::disc(&self.layout.footprint(*object), apart + gripper.clearance());
         let keep_outs = self.scene.table().keep_out().iter().map(|area| Blot::round(area, radius + INSIDE));
         let others = self.others(object).map(|(_, disc)| Blot::disc(&disc, apart));
         let target = self.scene.target();

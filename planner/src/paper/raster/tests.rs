@@ -6,45 +6,47 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::budget::Clock;
-use crate::geometry::{ArcSet, shadow};
+use crate::geometry::ArcSet;
+use crate::knowledge::{GraspModel, SweptFinger};
 use crate::scene::Gripper;
 use crate::scene::scenes::TestScene;
 
 fn moved(scene: &Scene, ids: &[&str], resolution: f64) -> Option<Vec<Relocation>> {
     let order: Vec<ObjectIndex> = ids.iter().map(|id| scene.find(id).unwrap()).collect();
     let raster = Raster::new(resolution, scene.table()).unwrap();
-    let arrangement = reposition(scene, &order, &raster, shadow, &Budget::unlimited()).unwrap();
+    let arrangement = reposition(scene, &order, &raster, &SweptFinger, &Budget::unlimited()).unwrap();
     arrangement.map(|arrangement| arrangement.relocations)
 }
 
 #[track_caller]
 fn check(scene: &Scene, id: &str, resolution: f64, expected: Option<(f64, f64)>) {
-    let to = moved(scene, &[id], resolution).map(|moved| moved[0].to);
+    let to = moved(scene, &[id], resolution).map(|moved| moved[0].to.at);
     let near = |to: Point2<f64>| expected.is_some_and(|(x, y)| (to - Point2::new(x, y)).norm() < 1e-12);
     assert!(to.map_or(expected.is_none(), near), "{to:?}");
 }
 
 /// The definition, pixel by pixel.
 fn by_plain_counting(scene: &Scene, raster: &Raster, object: ObjectIndex) -> Option<Point2<f64>> {
-    let (gripper, own) = (scene.gripper(), scene.object(object).disc());
-    let (margin, target) = (gripper.margin(), scene.object(scene.target()).disc());
-    let others: Vec<Disc> = scene.indices().filter(|o| *o != object).map(|o| scene.object(o).disc()).collect();
+    let (gripper, own) = (scene.gripper(), scene.object(object).footprint());
+    let (margin, target) = (gripper.margin(), scene.object(scene.target()).footprint());
+    let others: Vec<Footprint> =
+        scene.indices().filter(|o| *o != object).map(|o| scene.object(o).footprint()).collect();
     let mut pixels = Vec::new();
     for row in 0..raster.rows() {
         pixels.extend((0..raster.columns()).map(|column| raster.centre(column, row)));
     }
-    let black = |at: Point2<f64>| others.iter().any(|o| (at - o.centre).norm() < o.radius + gripper.clearance());
+    let black = |at: Point2<f64>| others.iter().any(|o| (at - o.at()).norm() < o.circumradius() + gripper.clearance());
     let marked = |at: Point2<f64>| {
-        let under: Vec<_> = pixels.iter().filter(|pixel| (*pixel - at).norm() <= own.radius + 1e-9).collect();
+        let under: Vec<_> = pixels.iter().filter(|pixel| (*pixel - at).norm() <= own.circumradius() + 1e-9).collect();
         let white = under.iter().filter(|pixel| !black(***pixel)).count();
-        255.0 * white as f64 / under.len() as f64 > threshold(own.radius, gripper.clearance(), gripper.period())
+        255.0 * white as f64 / under.len() as f64 > threshold(own.circumradius(), gripper.clearance(), gripper.period())
     };
     let mut best: Option<Point2<f64>> = None;
     for &at in &pixels {
-        let placed = own.at(at);
-        let keep_out = scene.table().keep_out().iter().any(|area| area.outer_gap(&placed) < INSIDE);
-        let far = |at: Point2<f64>| (at - target.centre).norm_squared();
-        if scene.table().top().inner_gap(&placed) > INSIDE
+        let placed = own.moved_to(at.into());
+        let keep_out = scene.table().keep_out().iter().any(|area| placed.gap_outside(area) < INSIDE);
+        let far = |at: Point2<f64>| (at - target.at()).norm_squared();
+        if placed.gap_inside(&scene.table().top()) > INSIDE
             && !keep_out
             && others.iter().all(|other| placed.gap(other) >= margin + INSIDE)
             && placed.gap(&target) >= gripper.clearance() + margin + INSIDE
@@ -76,7 +78,7 @@ proptest! {
             .build("t");
         prop_assume!(scene.objects().len() > 1);
         let (raster, object) = (Raster::new(0.01, scene.table()).unwrap(), ObjectIndex::new(1));
-        let placed = moved(&scene, &[scene.object(object).id()], 0.01).map(|moved| moved[0].to);
+        let placed = moved(&scene, &[scene.object(object).id()], 0.01).map(|moved| moved[0].to.at);
         prop_assert_eq!(placed, by_plain_counting(&scene, &raster, object));
     }
 
@@ -94,18 +96,18 @@ proptest! {
         let order: Vec<ObjectIndex> = scene.indices().skip(1).take(4).collect();
         let ids: Vec<&str> = order.iter().map(|object| scene.object(*object).id()).collect();
         let Some(moved) = moved(&scene, &ids, resolution) else { return Ok(()) };
-        let mut now: Vec<Disc> = scene.objects().iter().map(|object| object.disc()).collect();
+        let mut now: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint()).collect();
         for (at, step) in moved.iter().enumerate() {
-            let placed = now[step.object.get()].at(step.to);
+            let placed = now[step.object.get()].moved_to(step.to);
             for (other, disc) in now.iter().enumerate().filter(|(other, _)| *other != step.object.get()) {
                 let later = other == 0 || order[at + 1..].contains(&ObjectIndex::new(other));
                 let least = if later { 0.05 } else { 0.0 };
                 prop_assert!(placed.gap(disc) > least);
                 prop_assert!(placed.gap(disc) >= step.gap);
             }
-            prop_assert!(scene.table().top().inner_gap(&placed) > 0.0);
-            prop_assert!(scene.table().keep_out()[0].outer_gap(&placed) > 0.0);
-            prop_assert_eq!(now[step.object.get()].centre, step.from);
+            prop_assert!(placed.gap_inside(&scene.table().top()) > 0.0);
+            prop_assert!(placed.gap_outside(&scene.table().keep_out()[0]) > 0.0);
+            prop_assert_eq!(now[step.object.get()].pose, step.from);
             now[step.object.get()] = placed;
         }
     }
@@ -137,9 +139,18 @@ fn an_object_wider_than_the_table_has_no_place() {
 }
 
 /// Blocks all yaws of an object but for those between 1 and 3 rad at its first place.
-fn only_at_home(gripper: &Gripper, grasped: &Disc, _: &Disc, _: f64) -> ArcSet {
-    let at_home = grasped.centre == Point2::new(0.15, 0.06);
-    if at_home { ArcSet::fold(gripper.period(), &[(-0.1, 1.0), (3.0, 3.1)]) } else { ArcSet::full(gripper.period()) }
+struct OnlyAtHome;
+
+impl GraspModel for OnlyAtHome {
+    fn shadow(&self, gripper: &Gripper, grasped: &Footprint, _: &Footprint, _: f64) -> ArcSet {
+        let at_home = grasped.at() == Point2::new(0.15, 0.06);
+        let period = gripper.period();
+        if at_home { ArcSet::fold(period, &[(-0.1, 1.0), (3.0, 3.1)]) } else { ArcSet::full(period) }
+    }
+
+    fn options(&self, _: &Scene, _: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
+        unreachable!("nothing is searched")
+    }
 }
 
 #[test]
@@ -153,7 +164,7 @@ fn a_grasp_or_release_that_is_blocked_is_stated_without_slack() {
         .build("t");
     let raster = Raster::new(0.01, scene.table()).unwrap();
     let steps = [1, 1].map(ObjectIndex::new);
-    let plan = reposition(&scene, &steps, &raster, only_at_home, &Budget::unlimited()).unwrap().unwrap();
+    let plan = reposition(&scene, &steps, &raster, &OnlyAtHome, &Budget::unlimited()).unwrap().unwrap();
     let [first, second] = plan.relocations[..] else { unreachable!("two steps") };
     assert!((first.grasp.yaw - 2.0).abs() < 1e-9 && (first.grasp.slack - 1.0).abs() < 1e-9, "{first:?}");
     assert_eq!(first.release, Grasp { slack: 0.0, ..first.grasp });
@@ -181,7 +192,7 @@ fn a_budget_that_ends_anywhere_interrupts() {
     let ends_at = |looks: u32| {
         let clock = Looks(std::cell::Cell::new(0), looks);
         let budget = Budget::new(&clock, Duration::from_secs(1));
-        (reposition(&scene, &[ObjectIndex::new(1)], &raster, shadow, &budget), clock.0.get())
+        (reposition(&scene, &[ObjectIndex::new(1)], &raster, &SweptFinger, &budget), clock.0.get())
     };
     let (done, looks) = ends_at(u32::MAX);
     assert!(matches!(done, Ok(Some(_))) && looks > 100, "{looks}");

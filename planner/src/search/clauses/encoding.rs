@@ -4,8 +4,7 @@ use batsat::Lit;
 
 use super::solver::Solver;
 use super::unfounded_sets::UnfoundedSets;
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::landmark;
 use crate::search::problem::{Node, Problem};

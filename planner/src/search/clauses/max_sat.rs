@@ -7,8 +7,7 @@ use super::encoding::{Facts, encode};
 use super::solver::{Reply, Solver};
 use super::totalizer::Totalizer;
 use super::unfounded_sets::UnfoundedSets;
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::search::problem::Node;
 
 /// The most rounds in which a core is trimmed by solving it again.

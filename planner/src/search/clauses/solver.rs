@@ -6,8 +6,7 @@ use std::rc::Rc;
 use batsat::{Callbacks, ClauseKind, Lit, SolverInterface, SolverOpts, lbool};
 
 use super::unfounded_sets::UnfoundedSets;
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// Learnt clauses that are always kept. On problems this small a deleted clause is soon learnt again.
 const KEPT: i32 = 5000;

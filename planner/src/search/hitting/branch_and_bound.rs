@@ -9,8 +9,7 @@ use super::instance::{Decided, Instance};
 use super::multipliers::{initialise, raise};
 use super::reduce::reduce;
 use super::{Cut, Solution, Stop};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::search::problem::Node;
 
 /// Subgradient rounds for a part at the root, which inherits no multipliers.

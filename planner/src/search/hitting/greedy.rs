@@ -3,8 +3,7 @@
 use super::branch::most_frequent;
 use super::instance::{Decided, Instance};
 use super::reduce::reduce;
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::search::problem::Node;
 
 /// Greedy hitting set: reduce, take the most frequent element, repeat. Landmarks without members are ignored.

@@ -1,7 +1,6 @@
 //! A hitting set instance as a bit matrix, stored by sets and by elements, with its elementary changes.
 
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 use crate::search::bits::Bits;
 use crate::search::problem::Node;
 

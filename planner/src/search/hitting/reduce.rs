@@ -3,8 +3,7 @@
 use smallvec::SmallVec;
 
 use super::instance::{Decided, Instance};
-use crate::budget::Interrupted;
-use crate::budget::Ticker;
+use crate::budget::{Interrupted, Ticker};
 
 /// Applies four rules until none applies: the only member of a set is taken (unit rule); a superset of another set is
 /// dropped; an element is left out if another one hits all its sets (domination, Weihe 1998); an element in two pairs

@@ -7,8 +7,7 @@ use proptest::prelude::*;
 use super::instance::{Decided, Instance};
 use super::reduce::reduce;
 use super::{Allowance, Stop, bound, greedy, least};
-use crate::budget::Ticker;
-use crate::budget::{Budget, Unlimited};
+use crate::budget::{Budget, Ticker, Unlimited};
 use crate::search::looks::looks;
 use crate::search::problem::Node;
 

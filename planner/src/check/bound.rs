@@ -1,0 +1,170 @@
+//! The bound that the stated landmarks prove: each is checked by chaining, then a least hitting set of the sound ones
+//! is computed.
+
+use std::collections::HashMap;
+
+use crate::budget::{Interrupted, Ticker};
+use crate::cost::Cost;
+use crate::scene::{ObjectIndex, Scene};
+
+use super::chain::{Chain, Freed};
+use super::fault::{FaultCode, Faults};
+use super::hitting::{MOST_KEPT, least_hits};
+use super::names::{Names, relocatable};
+
+/// The most lifted objects that a fault names.
+const MAX_NAMED: usize = 5;
+
+/// The proven bound.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Proof {
+    /// No plan has fewer relocations.
+    pub(super) bound: Cost,
+    /// True if time sufficed: then `bound` is exactly what the landmarks prove.
+    pub(super) complete: bool,
+    /// The sound landmarks that prove `bound`, none a superset of another.
+    pub(super) sound: Vec<Vec<ObjectIndex>>,
+}
+
+/// A readable landmark: its members, sorted, and its position in the answer.
+struct Landmark {
+    members: Vec<ObjectIndex>,
+    at: usize,
+}
+
+/// Checks the landmarks, smallest first, and computes the bound of the sound ones.
+pub(super) fn prove(
+    scene: &Scene,
+    stated: &[Vec<String>],
+    names: &Names<'_>,
+    chain: &mut Chain<'_>,
+    faults: &mut Faults,
+    ticker: &mut Ticker<'_>,
+) -> Proof {
+    let (mut sound, mut complete) = (Sound::default(), true);
+    let tried = readable(scene, stated, names, faults, ticker).and_then(|landmarks| {
+        for landmark in landmarks {
+            sound.try_one(scene, landmark, chain, faults, ticker)?;
+        }
+        Ok(())
+    });
+    complete &= tried.is_ok();
+    let (sets, width) = sound.numbered();
+    let hits = least_hits(sets, width, MOST_KEPT, ticker);
+    // Every element costs one: each object is moved at least once.
+    Proof { bound: Cost::of_each(hits.at_least), complete: complete && hits.exact, sound: sound.landmarks }
+}
+
+/// The landmarks whose members exist and are movable, smallest first. The others are faults.
+fn readable(
+    scene: &Scene,
+    stated: &[Vec<String>],
+    names: &Names<'_>,
+    faults: &mut Faults,
+    ticker: &mut Ticker<'_>,
+) -> Result<Vec<Landmark>, Interrupted> {
+    let mut landmarks = Vec::new();
+    for (at, ids) in stated.iter().enumerate() {
+        ticker.step(1 + ids.len() / 8)?;
+        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(scene, at, id, names, faults)).collect();
+        let Some(mut members) = members else { continue };
+        members.sort_unstable();
+        members.dedup();
+        if members.is_empty() {
+            faults.of_answer(FaultCode::BadLandmark, || format!("landmark {at} has no member"));
+        } else {
+            landmarks.push(Landmark { members, at });
+        }
+    }
+    landmarks.sort_by(|a, b| a.members.len().cmp(&b.members.len()).then_with(|| a.members.cmp(&b.members)));
+    Ok(landmarks)
+}
+
+fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
+    let object = names.known(id, None, faults)?;
+    if relocatable(scene, object) {
+        return Some(object);
+    }
+    let detail = || format!("landmark {at} holds it, and no plan relocates the target or a fixed object");
+    faults.of_object(FaultCode::BadLandmark, id, detail);
+    None
+}
+
+/// A sentence that describes how the target is freed.
+fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
+    let named: Vec<_> =
+        lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();
+    let more = match lifted.len() - named.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    match named.as_slice() {
+        [] => format!("the target is free at yaw {yaw:.9} rad"),
+        _ => format!("the target is free at yaw {yaw:.9} rad once {}{more} are lifted", named.join(", ")),
+    }
+}
+
+/// The landmarks found sound, none a superset of another.
+#[derive(Default)]
+struct Sound {
+    landmarks: Vec<Vec<ObjectIndex>>,
+    /// Positions of the landmarks, by their first member.
+    by_first: HashMap<ObjectIndex, Vec<usize>>,
+}
+
+impl Sound {
+    /// Checks one landmark: it is sound if the target stays blocked while its members are held.
+    fn try_one(
+        &mut self,
+        scene: &Scene,
+        landmark: Landmark,
+        chain: &mut Chain<'_>,
+        faults: &mut Faults,
+        ticker: &mut Ticker<'_>,
+    ) -> Result<(), Interrupted> {
+        let Landmark { members, at } = landmark;
+        if self.covers(&members, ticker)? {
+            return Ok(());
+        }
+        if let Some(freed) = chain.frees_target(scene, &members, ticker)? {
+            let detail = || format!("landmark {at} can be left as it stands: {}", way(scene, &freed));
+            faults.of_answer(FaultCode::LandmarkRefuted, detail);
+            return Ok(());
+        }
+        self.by_first.entry(members[0]).or_default().push(self.landmarks.len());
+        self.landmarks.push(members);
+        Ok(())
+    }
+
+    /// True if a sound landmark is a subset of `members`. Then `members` are a sound landmark too, and prove nothing
+    /// more.
+    fn covers(&self, members: &[ObjectIndex], ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
+        ticker.step(1 + members.len() / 50)?;
+        for first in members {
+            let Some(candidates) = self.by_first.get(first) else { continue };
+            let mut compared = candidates.len();
+            let within = |at: &usize| {
+                let held = |member: &ObjectIndex| members.binary_search(member).is_ok();
+                let count = self.landmarks[*at].iter().take_while(|member| held(member)).count();
+                compared += count;
+                count == self.landmarks[*at].len()
+            };
+            let covered = candidates.iter().any(within);
+            ticker.step(1 + compared / 8)?;
+            if covered {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The landmarks with their members numbered from 0, and the number of different members.
+    fn numbered(&self) -> (Vec<Vec<usize>>, usize) {
+        let mut all: Vec<ObjectIndex> = self.landmarks.iter().flatten().copied().collect();
+        all.sort_unstable();
+        all.dedup();
+        let number = |member: &ObjectIndex| all.partition_point(|other| other < member);
+        let sets = self.landmarks.iter().map(|members| members.iter().map(number).collect());
+        (sets.collect(), all.len())
+    }
+}

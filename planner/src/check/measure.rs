@@ -1,0 +1,55 @@
+//! The checker's own measures of footprints: from one to a point, to another, to a rectangle.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::scene::{Footprint, Rectangle, Shape};
+
+/// The core of a footprint and the radius by which it is grown, m: what keeps its distance from fingers.
+pub(super) fn core(footprint: &Footprint) -> (Point2<f64>, f64) {
+    match footprint.shape {
+        Shape::Disc { radius } => (footprint.pose.at, radius),
+    }
+}
+
+/// From the edge of a footprint to a point, m; negative inside.
+pub(super) fn away(footprint: &Footprint, point: Point2<f64>) -> f64 {
+    match footprint.shape {
+        Shape::Disc { radius } => (footprint.pose.at - point).norm() - radius,
+    }
+}
+
+/// From edge to edge, m; negative where the two overlap.
+pub(super) fn gap(a: &Footprint, b: &Footprint) -> f64 {
+    match (a.shape, b.shape) {
+        (Shape::Disc { radius }, Shape::Disc { radius: others }) => {
+            let apart: Vector2<f64> = b.pose.at - a.pose.at;
+            apart.norm() - radius - others
+        }
+    }
+}
+
+/// The distance of points from the origin of a footprint within which its whole edge lies, m.
+pub(super) fn extent(footprint: &Footprint) -> f64 {
+    match footprint.shape {
+        Shape::Disc { radius } => radius,
+    }
+}
+
+/// How far a footprint sticks out of the rectangle, m.
+pub(super) fn overhang(footprint: &Footprint, top: Rectangle) -> f64 {
+    let (c, min, max) = (footprint.pose.at, top.min(), top.max());
+    match footprint.shape {
+        Shape::Disc { radius } => radius + (min.x - c.x).max(c.x - max.x).max(min.y - c.y).max(c.y - max.y),
+    }
+}
+
+/// How deep a footprint reaches into the rectangle, m.
+pub(super) fn intrusion(footprint: &Footprint, area: Rectangle) -> f64 {
+    let at = footprint.pose.at;
+    match footprint.shape {
+        Shape::Disc { radius } => {
+            let nearest = at.sup(&area.min()).inf(&area.max());
+            radius - (nearest - at).norm()
+        }
+    }
+}

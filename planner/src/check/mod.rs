@@ -1,0 +1,116 @@
+//! The independent checker: replays a statement on the scene with its own arithmetic.
+//!
+//! It shares only the scene, the budget and the statement, with what a step costs, with the rooms that make answers. So it
+//! does not repeat a fault of geometry, knowledge, search or placement. Reading order: `replay` carries out the steps
+//! (`place`, `measure`, `finger`); `yaws` and `rings` determine which objects block which, `ways` what can be moved then;
+//! `lock`, `chain` and `needed` build on them; `hitting` and `bound` confirm the bound; `parts` compares the parts of the
+//! statement.
+
+mod bound;
+mod branch;
+mod chain;
+mod family;
+mod fault;
+mod finger;
+mod fork;
+mod hitting;
+mod lock;
+mod measure;
+mod multipliers;
+mod names;
+mod near;
+mod needed;
+mod parts;
+mod place;
+mod replay;
+mod rings;
+mod ways;
+mod yaws;
+
+pub use fault::{Fault, FaultCode, MAX_FAULTS, Report};
+
+use std::rc::Rc;
+
+use crate::budget::{Budget, Ticker};
+use crate::scene::Scene;
+use crate::statement::Statement;
+
+use chain::Chain;
+use fault::Faults;
+use names::Names;
+use near::{Places, Tree};
+use rings::{Leaning, Rings};
+
+/// How far a stated answer may be off, m for lengths and rad for slack. Coordinates reach 1e5 m, where a double resolves
+/// 1.5e-11 m; a distance made of a few of them is good to about 1e-10 m, and no arm notices ten times that. Touching is
+/// allowed, so a plan that touches exactly must pass in spite of rounding.
+const TOLERANCE: f64 = 1e-9;
+
+/// Units of work between two looks at the budget: about 100 µs.
+const BEAT: usize = 100;
+
+/// Units that a replay may spend even after the budget has ended, about 50 ms: a plan found at the last moment must
+/// still be replayed before it is served. Only plans from outside are longer.
+const PATIENCE: usize = 50_000;
+
+/// The checker of one scene. Its preparations are shared by all answers, whatever their targets.
+pub struct Checker<'s> {
+    scene: &'s Scene,
+    names: Names<'s>,
+    start: Rc<Tree>,
+    /// Chains on rings that lean to blocked.
+    blocked: Chain<'s>,
+    /// Rings that lean to free, made for the first answer with needed objects.
+    free: Option<Rings<'s>>,
+}
+
+impl<'s> Checker<'s> {
+    /// Prepares the scene; near-linear in its size.
+    pub fn new(scene: &'s Scene) -> Self {
+        let start = Tree::of_start(scene);
+        let blocked = Chain::new(Rings::new(scene, &start, Leaning::Blocked));
+        Self { scene, names: Names::new(scene), start, blocked, free: None }
+    }
+
+    /// Check a stated answer. The time is near-linear in the steps and in what the proofs name. Locks and needed objects take
+    /// a byte of memory for each object of the scene. The proofs look at the budget about every 100 µs and are reported as
+    /// unconfirmed where it ends.
+    pub fn check(&mut self, statement: &Statement, budget: &Budget<'_>) -> Report {
+        self.check_for(self.scene, statement, budget)
+    }
+
+    /// The same for an answer to `scene`, which is the checker's scene with any target.
+    pub(crate) fn check_for(&mut self, scene: &Scene, statement: &Statement, budget: &Budget<'_>) -> Report {
+        let Self { names, start, blocked, free, .. } = self;
+        let mut faults = Faults::default();
+        let places = Places::new(scene, start, statement.steps(), names);
+        parts::agree(statement, &mut faults);
+        let replayed = replay::replay(scene, &places, names, statement, &mut faults, Ticker::patient(PATIENCE, budget));
+
+        let mut ticker = Ticker::every(BEAT, budget);
+        let locked = lock::check(scene, names, statement, blocked.rings(), &mut faults, &mut ticker);
+        let needed = match &statement.needed {
+            Some(ids) => {
+                let rings = free.get_or_insert_with(|| Rings::new(self.scene, start, Leaning::Free));
+                needed::check(scene, names, ids, rings, &mut faults, &mut ticker)
+            }
+            None => Ok(()),
+        };
+        let stated = statement.landmarks.as_deref().unwrap_or_default();
+        let proof = bound::prove(scene, stated, names, blocked, &mut faults, &mut ticker);
+        parts::bounded(statement, &proof, &mut faults);
+
+        let unfinished = replayed.is_err() || locked.is_err() || needed.is_err() || !proof.complete;
+        Report {
+            faults: faults.into_vec(),
+            proven_bound: proof.bound,
+            sound_landmarks: proof.sound,
+            interrupted: unfinished,
+        }
+    }
+}
+
+/// Check one stated answer.
+pub fn check(scene: &Scene, statement: &Statement, budget: &Budget<'_>) -> Report {
+    Checker::new(scene).check(statement, budget)
+}

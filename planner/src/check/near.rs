@@ -1,0 +1,253 @@
+//! Finds near objects: one tree of boxes over the objects at the start, and one over the new places of the steps.
+//!
+//! All places are known before the replay begins, so the trees never change; a caller skips places that are empty at
+//! its step. Each box knows how far the objects in it extend, so a huge one costs only the boxes above it.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use nalgebra::{Point2, Vector2};
+use smallvec::SmallVec;
+
+use crate::scene::{COORDINATE_RANGE, Footprint, ObjectIndex, Scene};
+use crate::statement::Step;
+
+use super::measure::{away, extent, gap};
+use super::names::{Names, relocatable};
+
+/// The number of a place. At the start, the n-th object stands on place n.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct PlaceIndex(usize);
+
+/// Every place of the start and of the stated steps.
+pub(super) struct Places {
+    start: Rc<Tree>,
+    steps: Tree,
+    /// Per place of the steps the object put there.
+    owners: Vec<ObjectIndex>,
+    /// For each step its new place; `None` if the step can't be carried out.
+    of_steps: Vec<Option<PlaceIndex>>,
+}
+
+/// The place of each object at a step.
+#[derive(Default)]
+pub(super) struct Standing {
+    /// The places of objects that were moved.
+    moved: HashMap<ObjectIndex, PlaceIndex>,
+}
+
+impl Standing {
+    pub(super) fn place(&self, object: ObjectIndex) -> PlaceIndex {
+        self.moved.get(&object).copied().unwrap_or(PlaceIndex(object.get()))
+    }
+
+    pub(super) fn put(&mut self, object: ObjectIndex, place: PlaceIndex) {
+        self.moved.insert(object, place);
+    }
+}
+
+/// Footprints by nearness.
+pub(super) struct Tree {
+    footprints: Vec<Footprint>,
+    boxes: Vec<Bounds>,
+    /// Numbers of footprints, so that each box holds a run of them.
+    order: Vec<usize>,
+}
+
+struct Bounds {
+    min: Point2<f64>,
+    max: Point2<f64>,
+    /// How far the footprints reach from their origins, at most, m.
+    extent: f64,
+    run: core::ops::Range<usize>,
+    children: Option<[usize; 2]>,
+}
+
+/// Places in a box that is not divided further.
+const LEAF: usize = 8;
+
+/// True if doubles resolve the coordinates well enough. A plan outside this range is on no table.
+pub(super) fn resolvable(point: Point2<f64>) -> bool {
+    let (min, max) = (10.0 * COORDINATE_RANGE.0, 10.0 * COORDINATE_RANGE.1);
+    (min..=max).contains(&point.x) && (min..=max).contains(&point.y)
+}
+
+impl Places {
+    /// `start` holds the scene's objects.
+    pub(super) fn new(scene: &Scene, start: &Rc<Tree>, steps: &[Step], names: &Names<'_>) -> Self {
+        let (mut footprints, mut owners) = (Vec::new(), Vec::new());
+        let of_steps = steps.iter().map(|step| {
+            let (object, to) = (names.find(step.object())?, step.rests_at());
+            (relocatable(scene, object) && resolvable(to.at)).then(|| {
+                footprints.push(scene.object(object).footprint().moved_to(to));
+                owners.push(object);
+                PlaceIndex(start.footprints.len() + footprints.len() - 1)
+            })
+        });
+        let of_steps = of_steps.collect();
+        Self { start: Rc::clone(start), steps: Tree::new(footprints), owners, of_steps }
+    }
+
+    /// What stands on a place.
+    pub(super) fn footprint(&self, PlaceIndex(place): PlaceIndex) -> Footprint {
+        let start = &self.start.footprints;
+        start.get(place).copied().unwrap_or_else(|| self.steps.footprints[place - start.len()])
+    }
+
+    /// The object that belongs to the place.
+    pub(super) fn owner(&self, PlaceIndex(place): PlaceIndex) -> ObjectIndex {
+        place.checked_sub(self.start.footprints.len()).map_or_else(|| ObjectIndex::new(place), |step| self.owners[step])
+    }
+
+    /// The new place of a step, if it can be carried out.
+    pub(super) fn of_step(&self, step: usize) -> Option<PlaceIndex> {
+        self.of_steps[step]
+    }
+
+    /// Visit every place whose object comes nearer than `reach` to `centre` (edge to point, m).
+    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(PlaceIndex)) {
+        self.start.within(centre, reach, |at| visit(PlaceIndex(at)));
+        self.steps.within(centre, reach, |at| visit(PlaceIndex(self.start.footprints.len() + at)));
+    }
+
+    /// The least gap from `footprint` to an object on a place that `counts`, m; infinite if there is none.
+    pub(super) fn least_gap(&self, footprint: &Footprint, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
+        let at_start = self.start.least_gap(footprint, |at| counts(PlaceIndex(at)));
+        at_start.min(self.steps.least_gap(footprint, |at| counts(PlaceIndex(self.start.footprints.len() + at))))
+    }
+}
+
+impl Tree {
+    pub(super) fn new(footprints: Vec<Footprint>) -> Self {
+        let order = (0..footprints.len()).collect();
+        let mut tree = Self { footprints, boxes: Vec::new(), order };
+        tree.divide(0..tree.order.len());
+        tree
+    }
+
+    /// The objects of a scene at their places at the start: the n-th is the n-th object's.
+    pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
+        Rc::new(Self::new(scene.objects().iter().map(|object| object.footprint()).collect()))
+    }
+
+    /// Box the run and divide it at the median of its longer side. Returns the box's number. The depth is logarithmic
+    /// whatever the points are, as a run is halved by rank.
+    fn divide(&mut self, run: core::ops::Range<usize>) -> usize {
+        let bounds = self.bounds(run.clone());
+        let wide = bounds.max.x - bounds.min.x >= bounds.max.y - bounds.min.y;
+        let at = self.boxes.len();
+        self.boxes.push(bounds);
+        if run.len() > LEAF {
+            let place = |one: &usize| self.footprints[*one].pose.at;
+            let key = |one: &usize| if wide { place(one).x } else { place(one).y };
+            let half = run.len() / 2;
+            self.order[run.clone()].select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+            let middle = run.start + half;
+            self.boxes[at].children = Some([self.divide(run.start..middle), self.divide(middle..run.end)]);
+        }
+        at
+    }
+
+    fn bounds(&self, run: core::ops::Range<usize>) -> Bounds {
+        let (far, near) =
+            (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
+        let mut bounds = Bounds { min: far, max: near, extent: 0.0, run: run.clone(), children: None };
+        for footprint in self.order[run].iter().map(|&at| self.footprints[at]) {
+            bounds.min = bounds.min.inf(&footprint.pose.at);
+            bounds.max = bounds.max.sup(&footprint.pose.at);
+            bounds.extent = bounds.extent.max(extent(&footprint));
+        }
+        bounds
+    }
+
+    /// Visit every footprint that comes nearer than `reach` to `centre` (edge to point, m).
+    pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(usize)) {
+        let mut open: SmallVec<[usize; 32]> = SmallVec::from_slice(&[0]);
+        while let Some(at) = open.pop() {
+            let bounds = &self.boxes[at];
+            if bounds.least_gap(centre) >= reach {
+                continue;
+            }
+            if let Some(children) = bounds.children {
+                open.extend(children);
+                continue;
+            }
+            for &at in &self.order[bounds.run.clone()] {
+                if away(&self.footprints[at], centre) < reach {
+                    visit(at);
+                }
+            }
+        }
+    }
+
+    /// The least gap from `footprint` to one that `counts`, m; infinite if there is none.
+    fn least_gap(&self, footprint: &Footprint, counts: impl Fn(usize) -> bool) -> f64 {
+        let (origin, own) = (footprint.pose.at, extent(footprint));
+        let mut least = f64::INFINITY;
+        let mut open: SmallVec<[(usize, f64); 32]> = SmallVec::from_slice(&[(0, f64::NEG_INFINITY)]);
+        while let Some((at, bound)) = open.pop() {
+            if bound >= least {
+                continue;
+            }
+            let bounds = &self.boxes[at];
+            if let Some(children) = bounds.children {
+                let mut pair = children.map(|child| (child, self.boxes[child].least_gap(origin) - own));
+                // The nearer box is looked at first, so it is pushed last.
+                pair.sort_by(|a, b| b.1.total_cmp(&a.1));
+                open.extend(pair);
+                continue;
+            }
+            for &at in self.order[bounds.run.clone()].iter().filter(|at| counts(**at)) {
+                least = least.min(gap(footprint, &self.footprints[at]));
+            }
+        }
+        least
+    }
+}
+
+impl Bounds {
+    /// No footprint with its origin in the box has its edge nearer to the point than this, m.
+    fn least_gap(&self, point: Point2<f64>) -> f64 {
+        let outside = Vector2::new(
+            (self.min.x - point.x).max(point.x - self.max.x).max(0.0),
+            (self.min.y - point.y).max(point.y - self.max.y).max(0.0),
+        );
+        outside.norm() - self.extent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::scenes::TestScene;
+
+    fn crowd() -> Scene {
+        let mut scene = TestScene::new(3).table(10.0, 10.0);
+        for n in 0..400_u32 {
+            let (x, y) = (f64::from(n % 20) * 0.5 + 0.25, f64::from(n / 20) * 0.5 + 0.25);
+            let radius = if n == 210 { 0.2 } else { 0.001 * f64::from(n * 7 % 40 + 1) };
+            scene = scene.disc(&format!("d{n}"), x, y, radius);
+        }
+        scene.build("d0")
+    }
+
+    #[test]
+    fn the_tree_finds_what_a_scan_finds() {
+        let scene = crowd();
+        let start = Tree::of_start(&scene);
+        for n in 0..100_u32 {
+            let centre = Point2::new(f64::from(n * 37 % 101) / 10.0, f64::from(n * 53 % 97) / 10.0);
+            let reach = 0.05 * f64::from(n % 20);
+            let mut found = Vec::new();
+            start.within(centre, reach, |at| found.push(at));
+            found.sort_unstable();
+            let scan =
+                scene.objects().iter().enumerate().filter(|(_, object)| away(&object.footprint(), centre) < reach);
+            assert_eq!(found, scan.map(|(at, _)| at).collect::<Vec<_>>());
+            let probe = Footprint::disc(centre, 0.001);
+            let least = start.least_gap(&probe, |at| at % 3 == 0);
+            let scan = scene.objects().iter().step_by(3).map(|object| gap(&probe, &object.footprint()));
+            assert_eq!(least, scan.fold(f64::INFINITY, f64::min));
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Checks that the parts of a statement agree with each other and with the proof.
+
+use crate::cost::Cost;
+use crate::statement::{Statement, Step, Verdict};
+
+use super::bound::Proof;
+use super::fault::{FaultCode, Faults};
+
+fn cost_of(steps: &[Step]) -> Cost {
+    steps.iter().map(Step::cost).sum()
+}
+
+/// The cost of the stated plan: counted if possible, otherwise as stated. `None` for a verdict without a plan.
+fn cost(statement: &Statement) -> Option<Cost> {
+    if matches!(statement.verdict, Some(Verdict::NoSpace | Verdict::TimedOut | Verdict::Deadlock)) {
+        return None;
+    }
+    statement.relocations.as_deref().map(cost_of).or(statement.cost)
+}
+
+/// The parts that belong to the verdict are there, and no others.
+pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
+    let moves = !statement.steps().is_empty();
+    let plan = [("relocations", moves), ("target_grasp", statement.target_grasp.is_some())];
+    let deadlock = ("deadlock", statement.deadlock.is_some());
+    let needed = ("needed", statement.needed.is_some());
+    let mut unexpected = |parts: &[(&str, bool)]| {
+        for (name, _) in parts.iter().filter(|(_, there)| *there) {
+            let detail = || format!("'{name}' does not go with this verdict");
+            faults.of_answer(FaultCode::UnexpectedPart, detail);
+        }
+    };
+    match statement.verdict {
+        Some(Verdict::Graspable) => unexpected(&[("relocations", moves), deadlock, needed]),
+        Some(Verdict::Relocate) => unexpected(&[deadlock, needed]),
+        Some(Verdict::NoSpace | Verdict::TimedOut) => {
+            unexpected(&plan);
+            unexpected(&[deadlock]);
+        }
+        Some(Verdict::Deadlock) => {
+            unexpected(&plan);
+            unexpected(&[needed]);
+        }
+        None if statement.deadlock.is_some() => unexpected(&plan),
+        None => {}
+    }
+    if statement.verdict == Some(Verdict::Deadlock) && statement.deadlock.is_none() {
+        faults.of_answer(FaultCode::MissingPart, || "a deadlock needs its locks".into());
+    }
+    costs(statement, faults);
+}
+
+/// The stated cost is that of the steps.
+fn costs(statement: &Statement, faults: &mut Faults) {
+    let stated_steps = statement.relocations.as_deref();
+    let real = match statement.verdict {
+        Some(Verdict::Graspable) => Some(Cost::ZERO),
+        Some(Verdict::Relocate) if stated_steps.is_none() => {
+            faults.of_answer(FaultCode::MissingPart, || "a plan needs its relocations".into());
+            None
+        }
+        Some(Verdict::Relocate) if stated_steps.is_some_and(<[Step]>::is_empty) => {
+            faults.of_answer(FaultCode::WrongCost, || "a plan without relocations is called graspable".into());
+            Some(Cost::ZERO)
+        }
+        Some(Verdict::Relocate) | None => stated_steps.map(cost_of),
+        Some(_) => None,
+    };
+    if let (Some(stated), Some(real)) = (statement.cost, real)
+        && stated != real
+    {
+        faults.of_answer(FaultCode::WrongCost, || format!("the cost is {real}, not {stated}"));
+    }
+}
+
+/// The stated bound is proven, and `optimal` agrees with cost and bound.
+pub(super) fn bounded(statement: &Statement, proof: &Proof, faults: &mut Faults) {
+    let cost = cost(statement);
+    if let Some(stated) = statement.lower_bound {
+        at_most_proven(stated, proof, faults);
+        if let Some(cost) = cost.filter(|cost| stated > *cost) {
+            faults.of_answer(FaultCode::BoundAboveCost, || format!("the bound {stated} is above the cost {cost}"));
+        }
+    }
+    match (statement.optimal, cost) {
+        (Some(true), None) => {
+            faults.of_answer(FaultCode::UnexpectedPart, || "'optimal' is said of no plan".into());
+        }
+        (Some(true), Some(cost)) => match statement.lower_bound {
+            Some(stated) if stated != cost => {
+                let detail = || format!("said to be optimal at cost {cost} and bound {stated}");
+                faults.of_answer(FaultCode::WrongOptimal, detail);
+            }
+            Some(_) => {}
+            None => at_most_proven(cost, proof, faults),
+        },
+        (Some(false), Some(cost)) if cost == proof.bound || statement.lower_bound == Some(cost) => {
+            faults
+                .of_answer(FaultCode::WrongOptimal, || format!("no plan costs less than {cost}, this one is optimal"));
+        }
+        _ => {}
+    }
+}
+
+fn at_most_proven(stated: Cost, proof: &Proof, faults: &mut Faults) {
+    let proven = proof.bound;
+    if stated <= proven {
+        return;
+    }
+    let (code, why) = if proof.complete {
+        (FaultCode::BoundUnproven, "prove no more than")
+    } else {
+        (FaultCode::BoundUnconfirmed, "could in the time left only be seen to prove")
+    };
+    faults.of_answer(code, || format!("the bound {stated} is stated, the landmarks {why} {proven}"));
+}

@@ -1,0 +1,65 @@
+//! Knowledge of each object before any search: its shadows and options.
+
+use super::base::KnowledgeBase;
+use super::grasp_model::{GraspModel, blockers};
+use super::options::Blocker;
+use super::scene_base::{NoBase, complete};
+use crate::budget::Budget;
+use crate::geometry::{Arc, ArcSet};
+use crate::scene::{ObjectIndex, Scene};
+
+/// An option with the yaws that it frees.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownOption {
+    /// All of these must be moved, in index order; empty if the object is graspable now.
+    pub members: Vec<ObjectIndex>,
+    /// The yaws that are free after that, rad, as arcs within [0, 2π/k]; one that runs over 0 is two.
+    pub free: Vec<Arc>,
+}
+
+/// The knowledge of one object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Known {
+    /// The object.
+    pub object: ObjectIndex,
+    /// Its options, none with a fixed object; empty for a fixed object.
+    pub options: Vec<KnownOption>,
+    /// The obstacles that block it at some yaw; none for a fixed object.
+    pub shadows: Vec<Blocker>,
+}
+
+/// The knowledge of every object, in index order.
+///
+/// # Errors
+/// [`NoBase`] when the budget ends, or if the objects are too dense.
+pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Result<Vec<Known>, NoBase> {
+    let base = complete(scene, model, budget)?;
+    let each = scene.indices().map(|object| {
+        budget.check()?;
+        Ok(of_object(scene, &base, model, object))
+    });
+    each.collect()
+}
+
+fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object: ObjectIndex) -> Known {
+    if scene.object(object).fixed() {
+        return Known { object, options: Vec::new(), shadows: Vec::new() };
+    }
+    let shadows = blockers(scene, object, model);
+    let movable = |option: &&[ObjectIndex]| !option.iter().any(|member| scene.object(*member).fixed());
+    let options = base
+        .options(object)
+        .filter(movable)
+        .map(|option| KnownOption { members: option.to_vec(), free: free_without(scene, &shadows, option) });
+    Known { object, options: options.collect(), shadows }
+}
+
+/// The free yaws once the objects `gone` are removed, in intervals wide enough to count.
+fn free_without(scene: &Scene, shadows: &[Blocker], gone: &[ObjectIndex]) -> Vec<Arc> {
+    let gripper = scene.gripper();
+    let left = shadows.iter().filter(|blocker| !gone.contains(&blocker.object)).map(|blocker| &blocker.shadow);
+    let blocked = ArcSet::union(gripper.period(), left);
+    let counting = blocked.free().filter(|gap| gap.width >= gripper.min_free_width());
+    let ends: Vec<(f64, f64)> = counting.map(|gap| (gap.start, gap.start + gap.width)).collect();
+    ArcSet::fold(gripper.period(), &ends).arcs().to_vec()
+}

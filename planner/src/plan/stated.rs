@@ -1,0 +1,86 @@
+//! States what the planner found: from indices to ids.
+
+use crate::cost::Cost;
+use crate::geometry::Grasp;
+use crate::knowledge::Locks;
+use crate::placement::{Arrangement, Relocation};
+use crate::scene::{ObjectIndex, Scene};
+use crate::search::LeastSet;
+use crate::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
+
+impl Statement {
+    /// The target can be grasped as the table stands: so every bound is met.
+    pub(crate) fn graspable(grasp: Grasp) -> Self {
+        Self {
+            verdict: Some(Verdict::Graspable),
+            target_grasp: Some(grasp.into()),
+            cost: Some(Cost::ZERO),
+            optimal: Some(true),
+            ..Self::timed_out()
+        }
+    }
+
+    /// A plan without a bound.
+    pub(crate) fn relocate(scene: &Scene, plan: &Arrangement) -> Self {
+        let steps: Vec<Step> = plan.relocations.iter().map(|step| Step::PickPlace(pick_place(scene, step))).collect();
+        Self {
+            verdict: Some(Verdict::Relocate),
+            cost: Some(steps.iter().map(Step::cost).sum()),
+            relocations: Some(steps),
+            target_grasp: Some(plan.target_grasp.into()),
+            ..Self::default()
+        }
+    }
+
+    /// A deadlock with its proof.
+    pub(crate) fn deadlock(scene: &Scene, Locks { blocked, core }: &Locks) -> Self {
+        let deadlock = Deadlock { blocked: ids(scene, blocked), core: ids(scene, core) };
+        Self { deadlock: Some(deadlock), ..Self::unproven_deadlock() }
+    }
+
+    /// A deadlock that nothing proves.
+    pub(crate) fn unproven_deadlock() -> Self {
+        Self { verdict: Some(Verdict::Deadlock), relocations: Some(Vec::new()), ..Self::default() }
+    }
+
+    /// No places for the objects that have to move, in this order; without a bound.
+    pub(crate) fn no_space(scene: &Scene, needed: &[ObjectIndex]) -> Self {
+        Self { verdict: Some(Verdict::NoSpace), ..Self::cut_off(scene, needed) }
+    }
+
+    /// Out of time with a derivation in hand, and without a bound.
+    pub(crate) fn cut_off(scene: &Scene, needed: &[ObjectIndex]) -> Self {
+        Self { lower_bound: None, landmarks: None, needed: Some(ids(scene, needed)), ..Self::timed_out() }
+    }
+
+    /// The same with the part of the search's bound that its landmarks prove.
+    #[must_use]
+    pub(crate) fn bounded(self, scene: &Scene, least: &LeastSet) -> Self {
+        let landmarks = least.landmarks.iter().map(|landmark| ids(scene, landmark)).collect();
+        // Only `true` is stated: a search that was cut off may have landmarks that prove more than it could compute.
+        let optimal = self.cost.is_some_and(|cost| cost == least.proven).then_some(true);
+        Self { lower_bound: Some(least.proven), landmarks: Some(landmarks), optimal, ..self }
+    }
+}
+
+impl From<Grasp> for StatedGrasp {
+    fn from(grasp: Grasp) -> Self {
+        Self { yaw: grasp.yaw, slack: Some(grasp.slack) }
+    }
+}
+
+fn pick_place(scene: &Scene, step: &Relocation) -> PickPlace {
+    PickPlace {
+        object: scene.object(step.object).id().to_owned(),
+        from: Some(step.from),
+        to: step.to,
+        grasp: step.grasp.into(),
+        release: step.release.into(),
+        gap: Some(step.gap),
+    }
+}
+
+/// The ids of objects, in the same order.
+pub(crate) fn ids(scene: &Scene, objects: &[ObjectIndex]) -> Vec<String> {
+    objects.iter().map(|&object| scene.object(object).id().to_owned()).collect()
+}

@@ -1,0 +1,91 @@
+//! The statement of an answer: what the checker reads and what is served. Anybody may state one, so its ids may name no
+//! object.
+
+mod step;
+
+use crate::cost::Cost;
+
+pub use step::{PickPlace, StatedGrasp, Step};
+
+/// A stated answer. Parts that are `None` are not checked.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Statement {
+    /// The verdict.
+    pub verdict: Option<Verdict>,
+    /// The steps, in order of execution.
+    pub relocations: Option<Vec<Step>>,
+    /// The final grasp of the target.
+    pub target_grasp: Option<StatedGrasp>,
+    /// The cost of the steps.
+    pub cost: Option<Cost>,
+    /// No plan costs less.
+    pub lower_bound: Option<Cost>,
+    /// True if the plan costs no more than the bound.
+    pub optimal: Option<bool>,
+    /// The proof of the bound: every plan moves at least one member of each set.
+    pub landmarks: Option<Vec<Vec<String>>>,
+    /// The proof of a deadlock.
+    pub deadlock: Option<Deadlock>,
+    /// The best known derivation if there is no plan: ids, in order.
+    pub needed: Option<Vec<String>>,
+}
+
+/// The verdicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The target can be grasped as the table stands.
+    Graspable,
+    /// The plan frees the target.
+    Relocate,
+    /// No sequence of pick-and-place frees the target; proven only if the statement's `deadlock` says why.
+    Deadlock,
+    /// Effort spent or places exhausted without a checked plan; not a proof.
+    NoSpace,
+    /// The time limit came first, with no plan in hand.
+    TimedOut,
+}
+
+/// Two locks, the proof of a deadlock. They hold against pick-and-place: no member can be picked while the others stand.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Deadlock {
+    /// The ids of the greatest lock, with fixed objects that block a member.
+    pub blocked: Vec<String>,
+    /// The ids of an inclusion-minimal lock within it.
+    pub core: Vec<String>,
+}
+
+impl Statement {
+    /// Nothing is known in time but the trivial bound, which needs no proof.
+    pub fn timed_out() -> Self {
+        Self {
+            verdict: Some(Verdict::TimedOut),
+            relocations: Some(Vec::new()),
+            lower_bound: Some(Cost::ZERO),
+            landmarks: Some(Vec::new()),
+            ..Self::default()
+        }
+    }
+
+    /// The steps; none where none are stated.
+    pub fn steps(&self) -> &[Step] {
+        self.relocations.as_deref().unwrap_or_default()
+    }
+
+    /// The name of the verdict in logs and metrics.
+    pub fn verdict_name(&self) -> &'static str {
+        self.verdict.map_or("unstated", Verdict::as_str)
+    }
+}
+
+impl Verdict {
+    /// Its name in answers and logs.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Graspable => "graspable",
+            Self::Relocate => "relocate",
+            Self::Deadlock => "deadlock",
+            Self::NoSpace => "no_space",
+            Self::TimedOut => "timed_out",
+        }
+    }
+}

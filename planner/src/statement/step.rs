@@ -1,0 +1,67 @@
+//! The steps of a plan: one variant for each action that the robot can do.
+
+use crate::cost::Cost;
+use crate::scene::Pose;
+
+/// One step of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// Lift an object and set it down elsewhere.
+    PickPlace(PickPlace),
+}
+
+/// A stated pick-and-place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PickPlace {
+    /// The id of the object moved.
+    pub object: String,
+    /// Where it stood.
+    pub from: Option<Pose>,
+    /// Where it is put.
+    pub to: Pose,
+    /// How it is picked.
+    pub grasp: StatedGrasp,
+    /// How it is let go.
+    pub release: StatedGrasp,
+    /// The least distance to another object at the new place, edge to edge, m.
+    pub gap: Option<f64>,
+}
+
+/// A stated grasp or release.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StatedGrasp {
+    /// Direction of finger 0, rad, counter-clockwise from +x.
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad.
+    pub slack: Option<f64>,
+}
+
+impl Step {
+    /// The id of the object that is moved.
+    pub fn object(&self) -> &str {
+        match self {
+            Self::PickPlace(step) => &step.object,
+        }
+    }
+
+    /// Where the step leaves the object on the table.
+    pub fn rests_at(&self) -> Pose {
+        match self {
+            Self::PickPlace(step) => step.to,
+        }
+    }
+
+    /// Where the object stands on the table before and after, as far as stated.
+    pub fn places(&self) -> impl Iterator<Item = Pose> + use<> {
+        match self {
+            Self::PickPlace(step) => step.from.into_iter().chain([step.to]),
+        }
+    }
+
+    /// What the step adds to the cost of a plan.
+    pub fn cost(&self) -> Cost {
+        match self {
+            Self::PickPlace(_) => Cost::new(1),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The table and the objects at their old places.
+
+use svg::node::element::{Group, Rectangle as Rect, Title};
+
+use super::label::{self, LARGEST_SIZE};
+use super::paint::{self, Paint, contour, filled, px};
+use super::roles::{Role, Roles};
+use super::view::View;
+use singulate_planner::scene::{Footprint, ObjectIndex, Rectangle, Scene};
+
+/// The table top with its keep-out rectangles.
+pub(super) fn table(scene: &Scene, view: &View) -> Group {
+    let top = rectangle(&scene.table().top(), view);
+    let top = top.set("fill", paint::TABLE).set("stroke", paint::TABLE_EDGE).set("stroke-width", "2");
+    scene.table().keep_out().iter().fold(Group::new().set("class", "table").add(top), |group, area| {
+        let area = rectangle(area, view).set("class", "keep-out").set("fill", "url(#keep-out)");
+        group.add(area.set("stroke", paint::KEEP_OUT))
+    })
+}
+
+fn rectangle(area: &Rectangle, view: &View) -> Rect {
+    let (left_below, right_above) = (view.point(area.min()), view.point(area.max()));
+    Rect::new()
+        .set("x", px(left_below.x))
+        .set("y", px(right_above.y))
+        .set("width", px(right_above.x - left_below.x))
+        .set("height", px(left_below.y - right_above.y))
+}
+
+/// Every object that is not moved.
+pub(super) fn standing(scene: &Scene, roles: &Roles<'_>, view: &View) -> Group {
+    let staying = scene.indices().filter(|&object| roles.of(object) != Role::Moved);
+    staying.fold(Group::new().set("class", "objects"), |group, object| group.add(one(scene, object, roles, view)))
+}
+
+fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Group {
+    let (object, target) = (scene.object(index), index == scene.target());
+    let (name, paint) = match roles.of(index) {
+        Role::Core => ("core", paint::CORE),
+        Role::Blocked => ("blocked", paint::BLOCKED),
+        Role::Needed => ("needed", paint::NEEDED),
+        Role::Moved | Role::Bystander if target => ("object", paint::TARGET),
+        Role::Moved | Role::Bystander if object.fixed() => ("object", paint::FIXED),
+        Role::Moved | Role::Bystander => ("object", paint::OBSTACLE),
+    };
+    let (footprint, stroke) = (object.footprint(), outline(&object.footprint(), view));
+    let mut group = Group::new()
+        .set("class", if target { format!("{name} target") } else { name.to_owned() })
+        .add(Title::new(label::clean(object.id())))
+        .add(filled(&footprint, view, paint).set("stroke-width", px(if target { 2.5 * stroke } else { stroke })));
+    if target {
+        // Gold on red, so that the target stands out within a lock too.
+        let line = if paint == paint::TARGET { paint.line } else { paint::TARGET.fill };
+        group = group.add(inner_ring(&footprint, 0.88, view, line));
+    }
+    if object.fixed() {
+        group = group.add(inner_ring(&footprint, 0.84, view, paint.line));
+    }
+    named(group, object.id(), &footprint, paint, view)
+}
+
+/// The second ring of a fixed object and of the target.
+fn inner_ring(footprint: &Footprint, share: f64, view: &View, line: &str) -> svg::node::element::Circle {
+    contour(footprint, share, view, line).set("stroke-width", px(outline(footprint, view)))
+}
+
+/// A stroke thin enough for the smallest of ten thousand discs, px.
+pub(super) fn outline(footprint: &Footprint, view: &View) -> f64 {
+    (view.length(footprint.circumradius()) * 0.06).min(1.5)
+}
+
+/// Write the id into the object if it is readable.
+pub(super) fn named(group: Group, id: &str, footprint: &Footprint, paint: Paint, view: &View) -> Group {
+    let radius = view.length(footprint.circumradius());
+    let Some((text, size)) = label::fit(id, (0.8 * radius).min(LARGEST_SIZE), 1.6 * radius) else { return group };
+    let ink = if paint == paint::CORE { paint::PAPER } else { paint::INK };
+    let text = label::centred(&text, size, view.point(footprint.at())).set("fill", ink);
+    // A halo separates the letters from the hatching.
+    let halo = paint == paint::FIXED;
+    group.add(if halo {
+        text.set("stroke", paint::PAPER).set("stroke-width", px(size / 4.0)).set("paint-order", "stroke")
+    } else {
+        text
+    })
+}

@@ -1,0 +1,233 @@
+//! A stated answer as JSON: its schema, and how it is read.
+
+use utoipa::openapi::schema::AdditionalProperties;
+use utoipa::openapi::{ObjectBuilder, RefOr, Schema, Type};
+use utoipa::{PartialSchema, ToSchema};
+
+use super::answer::VerdictWord;
+use super::code::ErrorCode;
+use super::limits::RequestLimits;
+use super::path::Path;
+use super::plan_request::PlanRequest;
+use super::problem::Problem;
+use super::reader::{Faults, Names, Node, parse};
+use super::request::{REQUEST, request};
+use super::scene::SceneBody;
+use super::step::{self, StatedGraspBody, StatedRelocation};
+use super::typed;
+use singulate_planner::cost::Cost;
+use singulate_planner::scene::Scene;
+use singulate_planner::statement::{Deadlock, Statement, Verdict};
+
+/// A scene and a stated answer.
+#[derive(Debug, Clone, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VerifyBody {
+    /// The scene, as in a planning request.
+    pub scene: SceneBody,
+    /// The answer, whole as it was served, or just its `relocations` and `target_grasp`.
+    pub plan: PlanBody,
+}
+
+/// A stated answer. What is absent or null is not checked.
+#[derive(Debug, Clone, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlanBody {
+    /// The verdict. Where it is absent, `target_grasp` is required.
+    pub verdict: Option<VerdictWord>,
+    /// Not checked.
+    #[schema(example = "cell-4/17")]
+    pub scene_id: Option<String>,
+    /// The scene's own target.
+    #[schema(example = "plate-1")]
+    pub target: Option<String>,
+    /// The steps, in order.
+    #[schema(example = json!([{
+        "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
+        "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
+    }]))]
+    pub relocations: Vec<StatedRelocation>,
+    /// How the target is grasped in the end.
+    pub target_grasp: Option<StatedGraspBody>,
+    /// The count of relocations.
+    #[schema(minimum = 0, maximum = 1000000000, example = 1)]
+    pub cost: Option<u32>,
+    /// No plan is said to have fewer relocations.
+    #[schema(minimum = 0, maximum = 1000000000, example = 1)]
+    pub lower_bound: Option<u32>,
+    /// The plan is said to be as short as any.
+    #[schema(example = true)]
+    pub optimal: Option<bool>,
+    /// The proof of the bound: of each set of ids every plan is said to move at least one.
+    #[schema(example = json!([["plate-2", "plate-5"]]))]
+    pub landmarks: Option<Vec<Vec<String>>>,
+    /// The proof of a deadlock.
+    pub deadlock: Option<StatedDeadlock>,
+    /// The ids of the best known derivation where there is no plan, in order.
+    #[schema(example = json!(["plate-2"]))]
+    pub needed: Option<Vec<String>>,
+    /// Not checked.
+    #[schema(value_type = Option<Vec<AnyObject>>, example = json!([]))]
+    pub warnings: (),
+    /// Not checked.
+    pub statistics: Option<AnyObject>,
+}
+
+/// An object whose fields are not described. The schema says so: without a word, some generators admit none.
+#[derive(Debug, Clone, Copy)]
+pub struct AnyObject(());
+
+impl PartialSchema for AnyObject {
+    fn schema() -> RefOr<Schema> {
+        let any_field = AdditionalProperties::FreeForm(true);
+        let object = ObjectBuilder::new().schema_type(Type::Object).additional_properties(Some(any_field));
+        object.description(Some("An object with any fields.")).into()
+    }
+}
+
+impl ToSchema for AnyObject {}
+
+/// A stated lock.
+#[derive(Debug, Clone, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatedDeadlock {
+    /// The ids of the greatest lock.
+    #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
+    pub blocked: Vec<String>,
+    /// The ids of a least lock within it.
+    #[schema(example = json!(["plate-1", "vase"]))]
+    pub core: Vec<String>,
+}
+
+/// A valid verification request.
+#[derive(Debug, Clone)]
+pub struct VerifyRequest {
+    /// The scene.
+    pub request: PlanRequest,
+    /// The stated answer.
+    pub statement: Statement,
+}
+
+impl AsRef<PlanRequest> for VerifyRequest {
+    fn as_ref(&self) -> &PlanRequest {
+        &self.request
+    }
+}
+
+const VERIFY: Names = Names::of(&["scene", "plan"]);
+const PLAN: Names = Names::of(&[
+    "verdict",
+    "scene_id",
+    "target",
+    "relocations",
+    "target_grasp",
+    "cost",
+    "lower_bound",
+    "optimal",
+    "landmarks",
+    "deadlock",
+    "needed",
+    "warnings",
+    "statistics",
+]);
+const DEADLOCK: Names = Names::of(&["blocked", "core"]);
+
+/// The greatest count that may be stated; far above any that can hold.
+const MAX_COUNT: u64 = 1_000_000_000;
+
+const VERDICTS: [(&str, Verdict); 5] = [
+    ("graspable", Verdict::Graspable),
+    ("relocate", Verdict::Relocate),
+    ("deadlock", Verdict::Deadlock),
+    ("no_space", Verdict::NoSpace),
+    ("timed_out", Verdict::TimedOut),
+];
+
+/// Read a scene and a stated answer.
+///
+/// # Errors
+/// A problem with every fault of the body.
+pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
+    sound(body, limits).map_or_else(|| walked(body, limits), Ok)
+}
+
+pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<VerifyRequest> {
+    let (stated, plan) = typed::verification(body, limits)?;
+    let request = stated.sound(&Path::Root.field("scene"), limits)?;
+    let statement = read_plan(plan.as_bytes(), &request.scene).ok()?;
+    Some(VerifyRequest { request, statement })
+}
+
+pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
+    let (value, mut faults) = parse(body)?;
+    let request = verify(Node::root(&value), limits, &mut faults);
+    faults.judge(request)
+}
+
+/// Read a stated answer alone. Its `target`, if any, must be the scene's.
+///
+/// # Errors
+/// A problem with every fault of the body.
+pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Statement, Problem> {
+    let (value, mut faults) = parse(body)?;
+    let target = scene.object(scene.target()).id();
+    let statement = plan(Node::root(&value), Some(target), &mut faults);
+    faults.judge(statement)
+}
+
+fn verify(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<VerifyRequest> {
+    let fields = node.fields(&VERIFY, faults)?;
+    let request = fields.required("scene", faults, |node, faults| request(node, &REQUEST, limits, faults));
+    let target = request.as_ref().map(|PlanRequest { scene, .. }| scene.object(scene.target()).id());
+    let statement = fields.required("plan", faults, |node, faults| plan(node, target, faults));
+    Some(VerifyRequest { statement: statement?, request: request? })
+}
+
+fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Option<Statement> {
+    let fields = node.fields(&PLAN, faults)?;
+    let verdict = fields.stated("verdict", faults, |node, faults| node.word(&VERDICTS, faults));
+    fields.stated("scene_id", faults, |node, faults| node.text(faults));
+    fields.stated("target", faults, |node, faults| target(node, scene_target, faults));
+    let relocations = fields.required("relocations", faults, |node, faults| {
+        // Unreadable steps are missing from this list, but their faults refuse the whole body.
+        Some(node.list(faults, |node, faults| step::read(node, faults).map(Some))?.into_iter().flatten().collect())
+    });
+    // Without a verdict, only the steps and the last grasp can be checked.
+    if !fields.states("verdict") && !fields.states("target_grasp") {
+        fields.missing("target_grasp", faults);
+    }
+    fields.stated("warnings", faults, |node, faults| node.list(faults, |node, faults| node.any_object(faults)));
+    fields.stated("statistics", faults, |node, faults| node.any_object(faults));
+    let count = |node: Node<'_>, faults: &mut Faults| node.whole((0, MAX_COUNT), faults).map(Cost::new);
+    Some(Statement {
+        verdict,
+        relocations,
+        target_grasp: fields.stated("target_grasp", faults, step::read_grasp),
+        cost: fields.stated("cost", faults, count),
+        lower_bound: fields.stated("lower_bound", faults, count),
+        optimal: fields.stated("optimal", faults, |node, faults| node.boolean(faults)),
+        landmarks: fields.stated("landmarks", faults, |node, faults| node.list(faults, ids)),
+        deadlock: fields.stated("deadlock", faults, deadlock),
+        needed: fields.stated("needed", faults, ids),
+    })
+}
+
+fn target(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Option<()> {
+    let stated = node.text(faults)?;
+    if let Some(wanted) = scene_target.filter(|wanted| *wanted != stated) {
+        let detail = format_args!("the plan is for '{stated}', the scene's target is '{wanted}'");
+        faults.add(ErrorCode::TargetMismatch, node.path(), detail);
+    }
+    Some(())
+}
+
+fn deadlock(node: Node<'_>, faults: &mut Faults) -> Option<Deadlock> {
+    let fields = node.fields(&DEADLOCK, faults)?;
+    let blocked = fields.required("blocked", faults, ids);
+    let core = fields.required("core", faults, ids);
+    Some(Deadlock { blocked: blocked?, core: core? })
+}
+
+fn ids(node: Node<'_>, faults: &mut Faults) -> Option<Vec<String>> {
+    node.list(faults, |node, faults| node.text(faults))
+}

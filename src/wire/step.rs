@@ -1,0 +1,178 @@
+//! A step of a plan as JSON: its schemas as served and as stated, how it is written, and how it is read.
+
+use nalgebra::Point2;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::code::ErrorCode;
+use super::reader::{Faults, Names, Node};
+use singulate_planner::scene::{COORDINATE_RANGE, Pose};
+use singulate_planner::statement::{PickPlace, StatedGrasp, Step};
+
+const RELOCATION: Names = Names::of(&["action", "object", "from", "to", "grasp", "release", "gap"]);
+const POINT: Names = Names::of(&["x", "y"]);
+const GRASP: Names = Names::of(&["yaw", "slack"]);
+
+/// One step of a plan. A client must refuse an action that it doesn't know.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct RelocationBody<'a> {
+    /// The kind of step.
+    pub action: ActionWord,
+    /// The id of the object that is moved.
+    #[schema(example = "plate-2")]
+    pub object: &'a str,
+    /// Its centre before.
+    #[schema(value_type = PointBody, required = true)]
+    pub from: Option<PointBody>,
+    /// Its centre after.
+    pub to: PointBody,
+    /// How it is picked.
+    pub grasp: GraspBody,
+    /// How it is let go.
+    pub release: GraspBody,
+    /// Least distance to another object at the new place, edge to edge, m.
+    #[schema(value_type = f64, required = true, example = 0.031)]
+    pub gap: Option<f64>,
+}
+
+/// The kind of step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(example = "pick_place")]
+pub enum ActionWord {
+    /// Pick an object up and place it elsewhere.
+    PickPlace,
+}
+
+/// A point on the table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+pub struct PointBody {
+    /// Along the table's x, m.
+    #[schema(example = 0.4)]
+    pub x: f64,
+    /// Along the table's y, m.
+    #[schema(example = 0.2)]
+    pub y: f64,
+}
+
+/// A yaw of the gripper that is free, with the room round it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+pub struct GraspBody {
+    /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
+    #[schema(example = 0.31)]
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
+    #[schema(value_type = f64, required = true, example = 0.12)]
+    pub slack: Option<f64>,
+}
+
+/// A stated step.
+#[derive(Debug, Clone, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatedRelocation {
+    /// The kind of step; `pick_place` where absent.
+    pub action: Option<ActionWord>,
+    /// The id of the object that is moved.
+    #[schema(example = "plate-2")]
+    pub object: String,
+    /// Its centre before.
+    pub from: Option<StatedPoint>,
+    /// Its centre after.
+    pub to: StatedPoint,
+    /// How it is picked.
+    pub grasp: StatedGraspBody,
+    /// How it is let go.
+    pub release: StatedGraspBody,
+    /// Least distance to another object at the new place, edge to edge, m.
+    #[schema(example = 0.031)]
+    pub gap: Option<f64>,
+}
+
+/// A stated point.
+#[derive(Debug, Clone, Copy, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatedPoint {
+    /// Along the table's x, m.
+    #[schema(minimum = -100000, maximum = 100000, example = 0.4)]
+    pub x: f64,
+    /// Along the table's y, m.
+    #[schema(minimum = -100000, maximum = 100000, example = 0.2)]
+    pub y: f64,
+}
+
+/// A stated yaw.
+#[derive(Debug, Clone, Copy, ToSchema)]
+#[serde(deny_unknown_fields)]
+#[schema(as = StatedGrasp)]
+pub struct StatedGraspBody {
+    /// Direction of finger 0, rad, counter-clockwise from +x.
+    #[schema(example = 0.31)]
+    pub yaw: f64,
+    /// The free angle on each side of the yaw, rad.
+    #[schema(example = 0.12)]
+    pub slack: Option<f64>,
+}
+
+impl<'a> RelocationBody<'a> {
+    pub(super) fn new(step: &'a Step) -> Self {
+        match step {
+            Step::PickPlace(PickPlace { object, from, to, grasp, release, gap }) => Self {
+                action: ActionWord::PickPlace,
+                object,
+                from: from.map(PointBody::from),
+                to: (*to).into(),
+                grasp: (*grasp).into(),
+                release: (*release).into(),
+                gap: *gap,
+            },
+        }
+    }
+}
+
+impl From<Pose> for PointBody {
+    fn from(Pose { at }: Pose) -> Self {
+        Self { x: at.x, y: at.y }
+    }
+}
+
+impl From<StatedGrasp> for GraspBody {
+    fn from(StatedGrasp { yaw, slack }: StatedGrasp) -> Self {
+        Self { yaw, slack }
+    }
+}
+
+pub(super) fn read(node: Node<'_>, faults: &mut Faults) -> Option<Step> {
+    let fields = node.fields(&RELOCATION, faults)?;
+    // Where no action is named, it is the oldest one.
+    fields.stated("action", faults, |node, faults| node.word(&[("pick_place", ())], faults));
+    let object = fields.required("object", faults, |node, faults| node.text(faults));
+    let from = fields.stated("from", faults, point);
+    let to = fields.required("to", faults, point);
+    let grasp_yaw = fields.required("grasp", faults, read_grasp);
+    let release = fields.required("release", faults, read_grasp);
+    let gap = fields.stated("gap", faults, |node, faults| node.number(faults));
+    Some(Step::PickPlace(PickPlace { object: object?, from, to: to?, grasp: grasp_yaw?, release: release?, gap }))
+}
+
+fn point(node: Node<'_>, faults: &mut Faults) -> Option<Pose> {
+    let fields = node.fields(&POINT, faults)?;
+    let x = fields.required("x", faults, coordinate);
+    let y = fields.required("y", faults, coordinate);
+    Some(Point2::new(x?, y?).into())
+}
+
+fn coordinate(node: Node<'_>, faults: &mut Faults) -> Option<f64> {
+    let value = node.number(faults)?;
+    let (min, max) = COORDINATE_RANGE;
+    if !(min..=max).contains(&value) {
+        faults.add(ErrorCode::OutOfRange, node.path(), format_args!("{value} is not between {min} and {max}"));
+    }
+    Some(value)
+}
+
+pub(super) fn read_grasp(node: Node<'_>, faults: &mut Faults) -> Option<StatedGrasp> {
+    let fields = node.fields(&GRASP, faults)?;
+    let yaw = fields.number("yaw", faults);
+    let slack = fields.stated("slack", faults, |node, faults| node.number(faults));
+    Some(StatedGrasp { yaw: yaw?, slack })
+}
