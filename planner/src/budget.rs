@@ -82,6 +82,21 @@ impl<'a> Budget<'a> {
     }
 }
 
+/// Why work with a limit of its own stopped early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// Its own limit is reached: choices, or places tried.
+    Spent,
+    /// The budget ended.
+    Interrupted,
+}
+
+impl From<Interrupted> for Stop {
+    fn from(Interrupted: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
 /// Counts steps and looks at the budget once in a while, since reading a clock costs as much as several steps.
 pub struct Ticker<'a> {
     budget: &'a Budget<'a>,
@@ -138,6 +153,9 @@ impl<'a> Ticker<'a> {
         self.budget.check()
     }
 }
+
+#[cfg(test)]
+pub(crate) mod clocks;
 
 #[cfg(test)]
 mod tests {

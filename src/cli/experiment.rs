@@ -9,7 +9,7 @@ use clap::{Args, Subcommand};
 use super::plan::withheld;
 use super::progress::Progress;
 use super::verify::Format;
-use super::{Failure, output, results};
+use super::{Failure, results, terminal};
 use crate::experiments::{Cause, ExperimentError, ExperimentSettings, table1, table2};
 use crate::wire::{Table1Body, Table2Body};
 use singulate_planner::plan::PlanError;
@@ -73,8 +73,8 @@ impl Experiment {
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
                 match common.format {
-                    Format::Json => output::print_json(&Table1Body::new(&settings, &columns)),
-                    Format::Text => output::print(&results::table1(&settings, &columns)),
+                    Format::Json => terminal::print_json(&Table1Body::new(&settings, &columns)),
+                    Format::Text => terminal::print(&results::table1(&settings, &columns)),
                 }
             }
             Table::Table2 { common } => {
@@ -83,8 +83,8 @@ impl Experiment {
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
                 match common.format {
-                    Format::Json => output::print_json(&Table2Body::new(&settings, &columns)),
-                    Format::Text => output::print(&results::table2(&settings, &columns)),
+                    Format::Json => terminal::print_json(&Table2Body::new(&settings, &columns)),
+                    Format::Text => terminal::print(&results::table2(&settings, &columns)),
                 }
             }
         }

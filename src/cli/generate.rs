@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Failure, output};
+use super::{Failure, terminal};
 use crate::experiments::{self, Arrangement, Recipe};
 use crate::wire::SceneBody;
 use singulate_planner::scene::{GripperDraft, Scene, SceneLimits};
@@ -62,7 +62,7 @@ impl Generate {
         // Limits other than the scene's size are checked by the reader of the scene.
         let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
         let (scene, _) = Scene::new(draft, &limits).map_err(|_| refused("no scene".to_owned()))?;
-        output::print_json(&SceneBody::new(&scene, None))
+        terminal::print_json(&SceneBody::new(&scene, None))
     }
 
     fn recipe(&self) -> Recipe {

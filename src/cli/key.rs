@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::{Failure, output};
+use super::{Failure, terminal};
 use crate::keys::{FreshKey, Rate, Scopes, append};
 
 /// The arguments of `key`.
@@ -41,9 +41,9 @@ impl Key {
         let Command::New(new) = self.command;
         let key = FreshKey::new(&new.name, new.scopes, new.rate).map_err(Failure::Refused)?;
         let Some(path) = new.api_keys_file else {
-            return output::print(&format!("{}\n\n{}", key.text(), key.entry()));
+            return terminal::print(&format!("{}\n\n{}", key.text(), key.entry()));
         };
         append(&key, &path).map_err(|error| Failure::Refused(error.to_string()))?;
-        output::print(&format!("{}\n", key.text()))
+        terminal::print(&format!("{}\n", key.text()))
     }
 }

@@ -4,17 +4,15 @@ mod experiment;
 mod flags;
 mod generate;
 mod healthcheck;
-mod input;
 mod key;
 mod open_files;
-mod output;
 mod plan;
 mod progress;
 mod results;
 mod serve;
-mod stopwatch;
 mod survey;
 mod table;
+mod terminal;
 mod text;
 mod verify;
 
@@ -104,7 +102,7 @@ impl Cli {
             Command::Generate(command) => command.run(),
             Command::Key(command) => command.run(),
             Command::Experiment(command) => command.run(),
-            Command::Openapi => output::print(&api::openapi_json()),
+            Command::Openapi => terminal::print(&api::openapi_json()),
             Command::Healthcheck(command) => command.run(),
         }
     }

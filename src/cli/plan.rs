@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::flags::Flags;
-use super::stopwatch::Stopwatch;
-use super::{Failure, configure, input, output, text};
+use super::terminal::Stopwatch;
+use super::{Failure, configure, terminal, text};
 use crate::render;
 use crate::wire::{AnswerBody, Problem, VerificationBody};
 use singulate_planner::budget::Budget;
@@ -39,15 +39,15 @@ enum Format {
 impl Plan {
     pub(super) fn run(self) -> Result<(), Failure> {
         let config = configure(&self.flags.0)?;
-        let request = input::scene(&self.scene, &config.server.limits)?;
+        let request = terminal::scene(&self.scene, &config.server.limits)?;
         let clock = Stopwatch::start();
         let budget = Budget::new(&clock, request.time_limit);
         let judged = plan_by(&request.methods, &request.scene, &request.settings, &budget, SILENT)
             .map_err(|error| failed(&self.scene, &error))?;
         match self.format {
-            Format::Json => output::print_json(&AnswerBody::new(&request, &judged)),
-            Format::Text => output::print(&text::answer(&request, &judged)),
-            Format::Svg => output::print(&render::svg(&request.scene, &judged)),
+            Format::Json => terminal::print_json(&AnswerBody::new(&request, &judged)),
+            Format::Text => terminal::print(&text::answer(&request, &judged)),
+            Format::Svg => terminal::print(&render::svg(&request.scene, &judged)),
         }
     }
 }
@@ -56,7 +56,7 @@ impl Plan {
 /// checker's faults.
 pub(super) fn failed(scene: &Path, error: &PlanError) -> Failure {
     let PlanError::Refused(report) = error else {
-        return input::refused(scene, &Problem::too_dense(error.to_string()));
+        return terminal::refused(scene, &Problem::too_dense(error.to_string()));
     };
     withheld(error, report)
 }

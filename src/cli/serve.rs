@@ -9,7 +9,7 @@ use clap::Args;
 use tokio::net::TcpSocket;
 
 use super::flags::Flags;
-use super::{Failure, open_files, output, warn_of_variables};
+use super::{Failure, open_files, terminal, warn_of_variables};
 use crate::api::{Engine, Server, ServerSettings};
 use crate::config::{self, Config};
 use crate::telemetry;
@@ -61,7 +61,7 @@ async fn serve(mut config: Config) -> Result<(), Failure> {
     let Some(server) = server else { return Ok(()) };
     let begun = place.listen(BACKLOG).map_err(cannot_listen).and_then(|listener| {
         tracing::info!(%listen, threads, "serving");
-        output::print(&greeting).map(|()| listener)
+        terminal::print(&greeting).map(|()| listener)
     });
     match begun {
         Ok(listener) => server.serve(listener, shutdown).await,

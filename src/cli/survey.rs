@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::flags::Flags;
 use super::plan::failed;
-use super::stopwatch::Stopwatch;
+use super::terminal::Stopwatch;
 use super::verify::Format;
-use super::{Failure, configure, input, output, text};
+use super::{Failure, configure, terminal, text};
 use crate::wire::SurveyBody;
 use singulate_planner::budget::Budget;
 use singulate_planner::plan::survey;
@@ -28,13 +28,13 @@ pub(super) struct Survey {
 impl Survey {
     pub(super) fn run(self) -> Result<(), Failure> {
         let config = configure(&self.flags.0)?;
-        let request = input::scene(&self.scene, &config.server.limits)?;
+        let request = terminal::scene(&self.scene, &config.server.limits)?;
         let clock = Stopwatch::start();
         let entries = survey(&request.scene, &Budget::new(&clock, request.time_limit));
         let entries = entries.map_err(|error| failed(&self.scene, &error))?;
         match self.format {
-            Format::Json => output::print_json(&SurveyBody::new(&request.scene, &entries)),
-            Format::Text => output::print(&text::survey(&request.scene, &entries)),
+            Format::Json => terminal::print_json(&SurveyBody::new(&request.scene, &entries)),
+            Format::Text => terminal::print(&text::survey(&request.scene, &entries)),
         }
     }
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::flags::Flags;
-use super::stopwatch::Stopwatch;
-use super::{Failure, configure, input, output, text};
+use super::terminal::Stopwatch;
+use super::{Failure, configure, terminal, text};
 use crate::wire::{VerificationBody, read_plan};
 use singulate_planner::budget::Budget;
 use singulate_planner::check::check;
@@ -39,14 +39,14 @@ impl Verify {
             return Err(Failure::Refused("scene and plan can't both be read from stdin".to_owned()));
         }
         let config = configure(&self.flags.0)?;
-        let request = input::scene(&self.scene, &config.server.limits)?;
-        let plan = input::bytes(&self.plan)?;
-        let statement = read_plan(&plan, &request.scene).map_err(|problem| input::refused(&self.plan, &problem))?;
+        let request = terminal::scene(&self.scene, &config.server.limits)?;
+        let plan = terminal::bytes(&self.plan)?;
+        let statement = read_plan(&plan, &request.scene).map_err(|problem| terminal::refused(&self.plan, &problem))?;
         let clock = Stopwatch::start();
         let report = check(&request.scene, &statement, &Budget::new(&clock, request.time_limit));
         match self.format {
-            Format::Json => output::print_json(&VerificationBody::new(&report)),
-            Format::Text => output::print(&text::verification(&VerificationBody::new(&report))),
+            Format::Json => terminal::print_json(&VerificationBody::new(&report)),
+            Format::Text => terminal::print(&text::verification(&VerificationBody::new(&report))),
         }
     }
 }

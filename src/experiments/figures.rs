@@ -1,8 +1,7 @@
 //! Sums of episodes.
 
 use super::episode::{Episode, OnBase};
-use super::interval::Interval;
-use super::spread::Spread;
+use super::sample::{Interval, Spread};
 use super::timed_search::{Ending, TimedSearch};
 use singulate_planner::paper::{GraspModelName, SearchMethod};
 use singulate_planner::statement::Verdict;

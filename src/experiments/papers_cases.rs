@@ -1,7 +1,7 @@
 //! The cases of the paper's section V, with the figures of its Tables I and II.
 
-use super::interval::Interval;
 use super::recipe::Recipe;
+use super::sample::Interval;
 
 /// The episodes in each column of Table I.
 pub const TABLE1_EPISODES: usize = 20;

@@ -8,7 +8,7 @@ use super::episode::planned;
 use super::error::{Cause, ExperimentError};
 use super::papers_cases::{PAPERS_CASES, PapersCase};
 use super::papers_scene::{papers_scene, seed_of};
-use super::spread::Spread;
+use super::sample::Spread;
 use super::timed_search::{Ending, timed_search};
 use super::workers::{Patience, in_parallel};
 use singulate_planner::check::FaultCode;

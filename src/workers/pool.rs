@@ -68,8 +68,8 @@ impl core::fmt::Debug for Waiting {
 }
 
 /// The search for places calls itself once per relocated object: at the default limit up to 10,000 levels deep, of a
-/// little more than 1 kB each. A thread's usual 2 MB would do for some 1,500. Only used pages take memory.
-const STACK_BYTES: usize = 16 << 20;
+/// 1 to 2 kB each. A thread's usual 2 MB would do for some 1,500. Only used pages take memory.
+const STACK_BYTES: usize = 64 << 20;
 
 impl Pool {
     /// `threads` threads (at least one), and a queue of `queue` places.

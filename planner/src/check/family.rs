@@ -262,37 +262,18 @@ impl Family {
 
 #[cfg(test)]
 mod tests {
-    use core::cell::Cell;
-    use core::time::Duration;
-
     use super::*;
-    use crate::budget::{Budget, Clock};
-
-    /// Counts how often it is asked.
-    struct Counting(Cell<usize>);
-
-    impl Clock for Counting {
-        fn elapsed(&self) -> Duration {
-            self.0.set(self.0.get() + 1);
-            Duration::ZERO
-        }
-
-        fn cancelled(&self) -> bool {
-            false
-        }
-    }
+    use crate::budget::clocks::Looks;
 
     #[test]
     fn a_reduction_costs_as_much_as_the_members_that_are_compared() {
         // 300 sets of `size` members each; no set holds another one.
         let looks = |size: usize| {
             let sets = (0..300).map(|at| Set::new((at..at + size).collect())).collect();
-            let clock = Counting(Cell::new(0));
-            let budget = Budget::new(&clock, Duration::MAX);
             let mut family = Family { sets, width: 300 + size };
-            family.drop_supersets(&mut Ticker::new(&budget)).unwrap();
+            let looks = Looks::of(|budget| family.drop_supersets(&mut Ticker::new(budget)).unwrap());
             assert_eq!(family.sets.len(), 300);
-            clock.0.get()
+            looks
         };
         let (small, large) = (looks(8), looks(1024));
         assert!(large > 10 * small, "{small} {large}");

@@ -1,5 +1,6 @@
 //! The knowledge base: per object its options, the bodies of its Horn rules.
 
+use super::rows::Rows;
 use crate::scene::ObjectIndex;
 
 /// Per object its options, in one canonical form: bodies sorted, none a superset of another of the same object, shorter
@@ -8,24 +9,20 @@ use crate::scene::ObjectIndex;
 pub struct KnowledgeBase {
     /// Per object the number of its first rule; at the end the number of all rules.
     first_rule: Vec<u32>,
-    /// Per rule the start of its body; at the end the length of all bodies.
-    first_member: Vec<u32>,
-    members: Vec<ObjectIndex>,
+    /// Per rule its body.
+    bodies: Rows<ObjectIndex>,
 }
 
 impl KnowledgeBase {
     /// An empty base, to which objects are added in index order.
     pub fn new() -> Self {
-        Self { first_rule: vec![0], first_member: vec![0], members: Vec::new() }
+        Self { first_rule: vec![0], bodies: Rows::default() }
     }
 
     /// Adds the next object with its options.
     pub fn push(&mut self, options: Vec<Vec<ObjectIndex>>) {
-        for option in subset_minimal(options) {
-            self.members.extend_from_slice(&option);
-            self.first_member.push(offset(self.members.len()));
-        }
-        self.first_rule.push(offset(self.first_member.len() - 1));
+        subset_minimal(options).iter().for_each(|option| self.bodies.push(option));
+        self.first_rule.push(offset(self.rules()));
     }
 
     /// A base of `count` objects. Object `order[n]` gets the options that object n has here, all others get none.
@@ -33,8 +30,7 @@ impl KnowledgeBase {
         let mut position = vec![None; count];
         order.iter().zip(self.objects()).for_each(|(object, here)| position[object.get()] = Some(here));
         let mut base = Self::new();
-        base.members.reserve_exact(self.size());
-        base.first_member.reserve_exact(self.rules());
+        base.bodies.reserve(self.rules(), self.size());
         for here in position {
             base.push_same(self, here);
         }
@@ -44,8 +40,7 @@ impl KnowledgeBase {
     /// Adds the next object with the options that `object` has in another base, or with none.
     pub(super) fn push_same(&mut self, other: &Self, object: Option<ObjectIndex>) {
         for rule in object.into_iter().flat_map(|object| other.rules_of(object)) {
-            self.members.extend_from_slice(other.body(rule));
-            self.first_member.push(offset(self.members.len()));
+            self.bodies.push(other.body(rule));
         }
         self.first_rule.push(offset(self.rules()));
     }
@@ -62,12 +57,12 @@ impl KnowledgeBase {
 
     /// The number of rules.
     pub fn rules(&self) -> usize {
-        self.first_member.len() - 1
+        self.bodies.lists()
     }
 
     /// The members of all options together: the size of the base.
     pub fn size(&self) -> usize {
-        self.members.len()
+        self.bodies.entries()
     }
 
     /// The options of an object.
@@ -87,11 +82,11 @@ impl KnowledgeBase {
 
     /// The body of a rule: the objects that must all be relocated.
     pub(super) fn body(&self, rule: usize) -> &[ObjectIndex] {
-        &self.members[self.first_member[rule] as usize..self.first_member[rule + 1] as usize]
+        self.bodies.get(rule)
     }
 
     /// Every object's index.
-    pub fn objects(&self) -> impl Iterator<Item = ObjectIndex> + use<> {
+    pub fn objects(&self) -> impl Iterator<Item = ObjectIndex> + Clone + use<> {
         (0..self.len()).map(ObjectIndex::new)
     }
 }

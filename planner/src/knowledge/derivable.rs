@@ -2,6 +2,7 @@
 //! in the size of the base.
 
 use super::base::KnowledgeBase;
+use super::rows::Rows;
 use crate::budget::{Budget, Interrupted};
 use crate::scene::ObjectIndex;
 
@@ -24,7 +25,7 @@ pub fn derivable(
     held: impl Fn(ObjectIndex) -> bool,
     budget: &Budget<'_>,
 ) -> Result<Derivable, Interrupted> {
-    let condition_of = ConditionOf::new(base);
+    let condition_of = condition_of(base);
     budget.check()?;
     let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
     let mut derivable = Derivable { order: Vec::new(), derived: vec![false; base.len()] };
@@ -46,7 +47,7 @@ pub fn derivable(
         if held(object) {
             continue;
         }
-        for &(rule, head) in condition_of.rules(object) {
+        for &(rule, head) in condition_of.get(object.get()) {
             missing[rule as usize] -= 1;
             if missing[rule as usize] == 0 {
                 derivable.derive(head);
@@ -70,37 +71,13 @@ impl Derivable {
 }
 
 /// Per object the rules that need it, with their heads.
-pub(super) struct ConditionOf {
-    first: Vec<u32>,
-    rules: Vec<(u32, ObjectIndex)>,
-}
-
-impl ConditionOf {
-    pub(super) fn new(base: &KnowledgeBase) -> Self {
-        let mut first = vec![0_u32; base.len() + 1];
-        for rule in 0..base.rules() {
-            base.body(rule).iter().for_each(|member| first[member.get() + 1] += 1);
-        }
-        for at in 1..first.len() {
-            first[at] += first[at - 1];
-        }
-        let mut next = first.clone();
-        let mut rules = vec![(0, ObjectIndex::new(0)); base.size()];
-        for head in base.objects() {
-            for rule in base.rules_of(head) {
-                for member in base.body(rule) {
-                    let slot = &mut next[member.get()];
-                    #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
-                    let entry = (rule as u32, head);
-                    rules[*slot as usize] = entry;
-                    *slot += 1;
-                }
-            }
-        }
-        Self { first, rules }
-    }
-
-    pub(super) fn rules(&self, object: ObjectIndex) -> &[(u32, ObjectIndex)] {
-        &self.rules[self.first[object.get()] as usize..self.first[object.get() + 1] as usize]
-    }
+fn condition_of(base: &KnowledgeBase) -> Rows<(u32, ObjectIndex)> {
+    let needs = base.objects().flat_map(|head| {
+        base.rules_of(head).flat_map(move |rule| {
+            #[expect(clippy::cast_possible_truncation, reason = "a base has fewer than 2^32 rules")]
+            let entry = (rule as u32, head);
+            base.body(rule).iter().map(move |member| (member.get() as u32, entry))
+        })
+    });
+    Rows::from_pairs(base.len(), needs)
 }

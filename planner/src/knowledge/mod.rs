@@ -9,6 +9,7 @@ mod grasp_model;
 mod known;
 mod lock;
 mod options;
+mod rows;
 mod scene_base;
 
 pub use base::KnowledgeBase;
@@ -17,4 +18,5 @@ pub use grasp_model::{GraspModel, SweptFinger, blockers};
 pub use known::{Known, KnownOption, known};
 pub use lock::{Locks, locks};
 pub use options::{Blocker, minimal_options};
+pub use rows::Rows;
 pub use scene_base::{MAX_BASE_SIZE, NoBase, complete, completed, fixed_blockers, relevant};

@@ -4,11 +4,11 @@
 //! doubles each round, from the first order and the best places only to more of both.
 
 use super::candidates::{Candidates, PlaceSpec};
-use super::effort::{Effort, EffortMeter, Stop};
+use super::effort::{Effort, EffortMeter};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
 use super::{Objective, PREFERRED_GAP, Relocation};
-use crate::budget::{Budget, Interrupted};
+use crate::budget::{Budget, Interrupted, Stop};
 use crate::geometry::Grasp;
 use crate::knowledge::GraspModel;
 use crate::scene::{ObjectIndex, Pose, Scene, distance};

@@ -10,9 +10,10 @@ use std::collections::BinaryHeap;
 use nalgebra::{Point2, Vector2};
 
 use super::borders::{Border, keep};
-use super::effort::{EffortMeter, Stop};
+use super::effort::EffortMeter;
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
+use crate::budget::Stop;
 use crate::scene::{Footprint, ObjectIndex, Pose, distance};
 
 /// Places that can be generated for the cost of trying one.

@@ -1,7 +1,7 @@
 //! Effort: a limit on the places tried. It is counted, not timed, so that the same question always ends at the same
 //! point.
 
-use crate::budget::{Budget, Interrupted, Ticker};
+use crate::budget::{Budget, Stop, Ticker};
 
 /// The effort left, in tried places of about half a microsecond each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,20 +30,6 @@ impl Effort {
     /// Takes back the rest of a part.
     pub fn join(&mut self, part: Self) {
         self.left += part.left;
-    }
-}
-
-/// Why a search for places stopped early.
-pub(super) enum Stop {
-    /// The effort is spent.
-    Spent,
-    /// The budget ended.
-    Interrupted,
-}
-
-impl From<Interrupted> for Stop {
-    fn from(Interrupted: Interrupted) -> Self {
-        Self::Interrupted
     }
 }
 

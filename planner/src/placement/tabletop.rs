@@ -2,8 +2,9 @@
 
 use super::INSIDE;
 use super::candidates::Candidates;
-use super::effort::{BEAT, EffortMeter, Stop};
+use super::effort::{BEAT, EffortMeter};
 use super::layout::Layout;
+use crate::budget::Stop;
 use crate::geometry::{Grasp, widest_grasp};
 use crate::scene::{Footprint, ObjectIndex, Pose, distance};
 

@@ -2,13 +2,12 @@
 
 use super::clauses::{Facts, MaxSat};
 use super::forward_chaining::ForwardChaining;
-use super::hitting::{Allowance, Stop};
-use super::memory::Memory;
-use super::outcome::{Derivation, Incumbent, LeastSet, Outcome, Progress, Restriction, SILENT};
+use super::hitting::Allowance;
+use super::outcome::{Derivation, Incumbent, LeastSet, Memory, Outcome, Progress, Restriction, SILENT};
 use super::preprocessing::{Preprocessed, preprocess};
 use super::problem::{Node, Problem};
 use super::{hitting, incumbent, landmark, proof};
-use crate::budget::{Budget, Interrupted, Ticker};
+use crate::budget::{Budget, Interrupted, Stop, Ticker};
 use crate::cost::Cost;
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;

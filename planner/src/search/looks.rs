@@ -1,36 +1,13 @@
 //! How often the search looks at its budget.
 
-use core::cell::Cell;
-use core::time::Duration;
-
-use crate::budget::{Budget, Clock, Ticker};
+use crate::budget::clocks::Looks;
+use crate::budget::{Budget, Ticker};
 use crate::scene::ObjectIndex;
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::landmark::extract;
 use crate::search::problem::Problem;
 use crate::search::tests::base;
 use crate::search::{Outcome, Restriction, least};
-
-/// A clock that counts the looks at it.
-struct Counting(Cell<usize>);
-
-impl Clock for Counting {
-    fn elapsed(&self) -> Duration {
-        self.0.set(self.0.get() + 1);
-        Duration::ZERO
-    }
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
-/// The number of looks at the budget that `work` takes.
-pub(in crate::search) fn looks(work: impl FnOnce(&Budget<'_>)) -> usize {
-    let clock = Counting(Cell::new(0));
-    work(&Budget::new(&clock, Duration::MAX));
-    clock.0.get()
-}
 
 #[test]
 fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
@@ -45,7 +22,7 @@ fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
         let objects = (1..options.len()).chain([0]).map(ObjectIndex::new).collect();
         let unlimited = Budget::unlimited();
         let problem = Problem::over(&base(&options), objects, |_| true, &mut Ticker::new(&unlimited)).unwrap();
-        looks(|budget| {
+        Looks::of(|budget| {
             let mut chain = ForwardChaining::new(&problem);
             let landmark = extract(&problem, &mut chain, problem.target(), &mut Ticker::new(budget));
             assert_eq!(landmark, Ok(vec![]));
@@ -63,7 +40,7 @@ fn what_a_restriction_requires_is_counted() {
     let solved = |required: usize| {
         let required = (1..=required).map(ObjectIndex::new).collect();
         let restriction = Restriction { required, ..Restriction::default() };
-        looks(|budget| {
+        Looks::of(|budget| {
             let outcome = least(&base, ObjectIndex::new(0), &restriction, budget);
             assert!(matches!(outcome, Outcome::Least(_)), "{outcome:?}");
         })

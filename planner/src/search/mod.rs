@@ -17,7 +17,6 @@ mod landmark;
 mod least;
 #[cfg(test)]
 mod looks;
-mod memory;
 mod outcome;
 mod preprocessing;
 mod problem;
@@ -27,5 +26,4 @@ mod tests;
 
 pub use alternatives::Alternatives;
 pub use least::{least, least_within};
-pub use memory::Memory;
-pub use outcome::{Derivation, Incumbent, LeastSet, Outcome, Progress, Restriction, SILENT};
+pub use outcome::{Derivation, Incumbent, LeastSet, Memory, Outcome, Progress, Restriction, SILENT};

@@ -1,7 +1,7 @@
 //! The Horn rules of one question, densely numbered.
 
 use crate::budget::{Interrupted, Ticker};
-use crate::knowledge::KnowledgeBase;
+use crate::knowledge::{KnowledgeBase, Rows};
 use crate::scene::ObjectIndex;
 
 /// An object of the problem; the target is numbered after all others.
@@ -18,38 +18,9 @@ pub(super) struct Problem {
     /// Per rule its head.
     heads: Vec<Node>,
     /// Per node its rules.
-    rules_of: Lists,
-    bodies: Lists,
-    condition_of: Lists,
-}
-
-/// Many short lists in one (compressed sparse rows).
-#[derive(Debug, Default)]
-pub(super) struct Lists {
-    first: Vec<u32>,
-    entries: Vec<u32>,
-}
-
-impl Lists {
-    fn from_pairs(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let mut first = vec![0_u32; count + 1];
-        pairs.clone().for_each(|(list, _)| first[list as usize + 1] += 1);
-        for at in 1..first.len() {
-            first[at] += first[at - 1];
-        }
-        let mut next = first.clone();
-        let mut entries = vec![0; first[count] as usize];
-        for (list, entry) in pairs {
-            let slot = &mut next[list as usize];
-            entries[*slot as usize] = entry;
-            *slot += 1;
-        }
-        Self { first, entries }
-    }
-
-    pub(super) fn get(&self, list: u32) -> &[u32] {
-        &self.entries[self.first[list as usize] as usize..self.first[list as usize + 1] as usize]
-    }
+    rules_of: Rows<u32>,
+    bodies: Rows<u32>,
+    condition_of: Rows<u32>,
 }
 
 impl Problem {
@@ -124,9 +95,9 @@ impl Problem {
     }
 
     fn from_parts(objects: Vec<ObjectIndex>, heads: Vec<Node>, members: &[(u32, Node)]) -> Self {
-        let bodies = Lists::from_pairs(heads.len(), members.iter().copied());
-        let condition_of = Lists::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
-        let rules_of = Lists::from_pairs(objects.len(), heads.iter().copied().zip(0..));
+        let bodies = Rows::from_pairs(heads.len(), members.iter().copied());
+        let condition_of = Rows::from_pairs(objects.len(), members.iter().map(|&(rule, node)| (node, rule)));
+        let rules_of = Rows::from_pairs(objects.len(), heads.iter().copied().zip(0..));
         Self { objects, heads, rules_of, bodies, condition_of }
     }
 
@@ -150,15 +121,15 @@ impl Problem {
     }
 
     pub(super) fn rules_of(&self, node: Node) -> &[u32] {
-        self.rules_of.get(node)
+        self.rules_of.get(node as usize)
     }
 
     pub(super) fn body(&self, rule: u32) -> &[Node] {
-        self.bodies.get(rule)
+        self.bodies.get(rule as usize)
     }
 
     pub(super) fn condition_of(&self, node: Node) -> &[u32] {
-        self.condition_of.get(node)
+        self.condition_of.get(node as usize)
     }
 
     pub(super) fn object(&self, node: Node) -> ObjectIndex {

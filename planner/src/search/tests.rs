@@ -2,6 +2,7 @@
 
 use super::preprocessing::preprocess;
 use super::{Alternatives, Incumbent, LeastSet, Memory, Outcome, Restriction, least, least_within};
+use crate::budget::clocks::Looks;
 use crate::budget::{Budget, Ticker};
 use crate::cost::Cost;
 use crate::knowledge::{KnowledgeBase, derivable};
@@ -141,21 +142,6 @@ pub(super) fn options(objects: usize) -> impl Strategy<Value = Vec<Vec<Vec<usize
     proptest::collection::vec(list, objects)
 }
 
-/// Cancels after so many looks.
-pub(super) struct After(pub(super) core::cell::Cell<u32>);
-
-impl crate::budget::Clock for After {
-    fn elapsed(&self) -> core::time::Duration {
-        core::time::Duration::ZERO
-    }
-
-    fn cancelled(&self) -> bool {
-        let left = self.0.get();
-        self.0.set(left.saturating_sub(1));
-        left == 0
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
@@ -165,9 +151,9 @@ proptest! {
     }
 
     #[test]
-    fn an_interrupted_search_claims_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..40) {
-        let clock = After(core::cell::Cell::new(looks));
-        let budget = Budget::new(&clock, core::time::Duration::MAX);
+    fn an_interrupted_search_claims_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_usize..40) {
+        let clock = Looks::ending_after(looks);
+        let budget = clock.budget();
         let outcome = least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget);
         let expected = exhaustive(&options, 0);
         match outcome {
@@ -199,12 +185,12 @@ proptest! {
     }
 
     #[test]
-    fn sets_whose_time_ends_go_on_where_they_were(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..60) {
+    fn sets_whose_time_ends_go_on_where_they_were(options in (6_usize..11).prop_flat_map(options), looks in 0_usize..60) {
         let (base, target, unlimited) = (base(&options), ObjectIndex::new(0), Budget::unlimited());
         if let Outcome::Least(first) = least(&base, target, &Restriction::default(), &unlimited) {
             let mut whole = Alternatives::new(&base, target, first.derivation.clone());
             let expected: Vec<_> = core::iter::from_fn(|| whole.next(&unlimited).unwrap()).take(30).collect();
-            let clock = After(core::cell::Cell::new(looks));
+            let clock = Looks::ending_after(looks);
             let hurried = Budget::new(&clock, core::time::Duration::MAX);
             let mut cut = Alternatives::new(&base, target, first.derivation);
             let next = || cut.next(&hurried).unwrap_or_else(|_| cut.next(&unlimited).unwrap());

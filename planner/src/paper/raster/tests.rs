@@ -1,11 +1,9 @@
 //! Repositioning against its definition.
 
-use core::time::Duration;
-
 use proptest::prelude::*;
 
 use super::*;
-use crate::budget::Clock;
+use crate::budget::clocks::Looks;
 use crate::geometry::ArcSet;
 use crate::knowledge::{GraspModel, SweptFinger};
 use crate::scene::Gripper;
@@ -171,30 +169,15 @@ fn a_grasp_or_release_that_is_blocked_is_stated_without_slack() {
     assert_eq!((second.grasp, second.release), (Grasp { yaw: 0.0, slack: 0.0 }, Grasp { yaw: 0.0, slack: 0.0 }));
 }
 
-/// A clock that ends the budget at the n-th look, and counts the looks.
-struct Looks(std::cell::Cell<u32>, u32);
-
-impl Clock for Looks {
-    fn elapsed(&self) -> Duration {
-        self.0.set(self.0.get() + 1);
-        if self.0.get() > self.1 { Duration::MAX } else { Duration::ZERO }
-    }
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
 #[test]
 fn a_budget_that_ends_anywhere_interrupts() {
     let scene = TestScene::new(3).table(1.2, 0.7).disc("t", 0.6, 0.35, 0.05).disc("a", 0.7, 0.35, 0.05).build("t");
     let raster = Raster::new(0.02, scene.table()).unwrap();
-    let ends_at = |looks: u32| {
-        let clock = Looks(std::cell::Cell::new(0), looks);
-        let budget = Budget::new(&clock, Duration::from_secs(1));
-        (reposition(&scene, &[ObjectIndex::new(1)], &raster, &SweptFinger, &budget), clock.0.get())
+    let ends_at = |looks: usize| {
+        let clock = Looks::ending_after(looks);
+        (reposition(&scene, &[ObjectIndex::new(1)], &raster, &SweptFinger, &clock.budget()), clock.seen())
     };
-    let (done, looks) = ends_at(u32::MAX);
+    let (done, looks) = ends_at(usize::MAX);
     assert!(matches!(done, Ok(Some(_))) && looks > 100, "{looks}");
     assert!((0..looks).all(|end| ends_at(end).0 == Err(Interrupted)));
 }

@@ -1,11 +1,11 @@
 //! Core-guided MaxSAT from its first step against enumeration, and on a base that needs it.
 
-use core::cell::Cell;
 use core::time::Duration;
 
 use proptest::prelude::*;
 
 use super::{Facts, MaxSat};
+use crate::budget::clocks::Looks;
 use crate::budget::{Budget, Ticker};
 use crate::cost::Cost;
 use crate::knowledge::derivable;
@@ -13,7 +13,6 @@ use crate::scene::ObjectIndex;
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::preprocessing::preprocess;
 use crate::search::problem::Node;
-use crate::search::tests::After;
 use crate::search::tests::base;
 use crate::search::tests::exhaustive;
 use crate::search::tests::follows;
@@ -82,8 +81,8 @@ proptest! {
     }
 
     #[test]
-    fn clauses_cut_off_claim_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_u32..60) {
-        let clock = After(Cell::new(looks));
+    fn clauses_cut_off_claim_only_what_holds(options in (6_usize..11).prop_flat_map(options), looks in 0_usize..60) {
+        let clock = Looks::ending_after(looks);
         let found = by_clauses(&options, &[], 1000, &Budget::new(&clock, Duration::MAX));
         if let (Some((bound, best)), Some(expected)) = (found, exhaustive(&options, 0)) {
             prop_assert!(bound <= expected as usize && expected as usize <= best);
@@ -150,8 +149,8 @@ fn a_stack_cut_off_anywhere_claims_only_what_holds() {
     let options = stack();
     let (mut looks, mut among_clauses) = (0, 0);
     loop {
-        let clock = After(Cell::new(looks));
-        let budget = Budget::new(&clock, Duration::MAX);
+        let clock = Looks::ending_after(looks);
+        let budget = clock.budget();
         match least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget) {
             Outcome::Interrupted(Some(found)) => {
                 among_clauses += usize::from(found.bound > found.proven);

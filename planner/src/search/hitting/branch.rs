@@ -1,11 +1,11 @@
 //! One node of the branch and bound: a question is answered at once, falls into parts, or needs a choice.
 
+use super::Solution;
 use super::fork::{Choice, Fork, Parts};
 use super::instance::{Decided, Instance};
 use super::multipliers::{LagrangianBound, raise};
 use super::reduce::reduce;
-use super::{Solution, Stop};
-use crate::budget::Ticker;
+use crate::budget::{Stop, Ticker};
 
 /// Subgradient rounds for a part that inherits its multipliers.
 const ROUNDS: usize = 12;

@@ -8,8 +8,8 @@ use super::fork::{Fork, Next, Parts};
 use super::instance::{Decided, Instance};
 use super::multipliers::{initialise, raise};
 use super::reduce::reduce;
-use super::{Cut, Solution, Stop};
-use crate::budget::{Interrupted, Ticker};
+use super::{Cut, Solution};
+use crate::budget::{Interrupted, Stop, Ticker};
 use crate::search::problem::Node;
 
 /// Subgradient rounds for a part at the root, which inherits no multipliers.

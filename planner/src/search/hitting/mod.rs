@@ -18,25 +18,10 @@ pub(super) use branch_and_bound::{Allowance, bound, least};
 pub(super) use greedy::greedy;
 
 use super::problem::Node;
-use crate::budget::Interrupted;
+use crate::budget::Stop;
 
 /// A least hitting set; `None` if it has no fewer elements than the limit.
 type Solution = Option<Vec<Node>>;
-
-/// Why a search stopped early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stop {
-    /// The choices are spent.
-    Spent,
-    /// The budget ended.
-    Interrupted,
-}
-
-impl From<Interrupted> for Stop {
-    fn from(Interrupted: Interrupted) -> Self {
-        Self::Interrupted
-    }
-}
 
 /// A search that stopped early.
 #[derive(Debug)]

@@ -6,9 +6,9 @@ use proptest::prelude::*;
 
 use super::instance::{Decided, Instance};
 use super::reduce::reduce;
-use super::{Allowance, Stop, bound, greedy, least};
-use crate::budget::{Budget, Ticker, Unlimited};
-use crate::search::looks::looks;
+use super::{Allowance, bound, greedy, least};
+use crate::budget::clocks::Looks;
+use crate::budget::{Budget, Stop, Ticker, Unlimited};
 use crate::search::problem::Node;
 
 fn enumerated(sets: &[Vec<Node>], nodes: u32) -> usize {
@@ -90,7 +90,7 @@ fn a_reduction_costs_as_much_as_the_rows_that_are_read() {
             half.collect()
         };
         let sets: Vec<Vec<Node>> = (0..1000).map(&mut set).collect();
-        looks(|budget| {
+        Looks::of(|budget| {
             let ticker = &mut Ticker::new(budget);
             let mut instance = Instance::read(&sets, ticker).unwrap();
             let before = instance.members().words();

@@ -1,11 +1,16 @@
-//! Reads the files that the commands name.
+//! What a command has of the machine: files and stdin, stdout, and a clock.
 
-use std::io::Read;
+use core::time::Duration;
+use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
+use std::time::Instant;
+
+use serde::Serialize;
 
 use super::Failure;
 use super::text::plain;
 use crate::wire::{PlanRequest, Problem, RequestLimits, read_scene};
+use singulate_planner::budget::Clock;
 
 /// The file's bytes; `-` is stdin.
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -41,4 +46,39 @@ pub(super) fn refused(path: &Path, problem: &Problem) -> Failure {
         }
     }
     Failure::Refused(lines.join("\n"))
+}
+
+/// Write the text. A closed pipe is no error: its reader has read enough.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Broken(format!("stdout: {error}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Write a body as the service would, indented.
+pub(super) fn print_json(body: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(body).map_err(|error| Failure::Broken(error.to_string()))?;
+    print(&(text + "\n"))
+}
+
+/// The clock of a command. It is never cancelled: an impatient user kills the process.
+#[derive(Debug)]
+pub(super) struct Stopwatch(Instant);
+
+impl Stopwatch {
+    pub(super) fn start() -> Self {
+        Self(Instant::now())
+    }
+}
+
+impl Clock for Stopwatch {
+    fn elapsed(&self) -> Duration {
+        self.0.elapsed()
+    }
+
+    fn cancelled(&self) -> bool {
+        false
+    }
 }
