@@ -119,9 +119,9 @@ impl<'a> Ticker<'a> {
         Self { budget, beat, left: beat }
     }
 
-    /// A ticker that looks first after `patience` steps, whatever the budget says until then.
-    pub fn patient(patience: usize, budget: &'a Budget<'a>) -> Self {
-        Self { budget, beat: BEAT, left: patience }
+    /// A ticker that looks every `beat` steps, first after `patience`, whatever the budget says until then.
+    pub fn patient(patience: usize, beat: usize, budget: &'a Budget<'a>) -> Self {
+        Self { budget, beat, left: patience }
     }
 
     /// Another ticker on the same budget.
@@ -130,7 +130,7 @@ impl<'a> Ticker<'a> {
         Self { left: 0, ..*self }
     }
 
-    /// Counts `steps` of about half a microsecond each.
+    /// Counts `steps`, of half a microsecond to one each.
     ///
     /// # Errors
     /// [`Interrupted`] if a look was due and the budget has ended.

@@ -86,7 +86,7 @@ impl Answers {
         Self {
             plan,
             survey: value(&SurveyBody::new(&request.scene, &survey)),
-            knowledge: value(&KnowledgeBody::new(&request.scene, &known, false)),
+            knowledge: value(&KnowledgeBody::new(&request.scene, &known, &[])),
             verify,
             verification: value(&VerificationBody::new(&report)),
         }

@@ -1,6 +1,7 @@
 //! Answers for humans: the steps and the reasons.
 
 use core::time::Duration;
+use std::collections::HashSet;
 
 use super::table::{Column, table};
 use crate::render::headline;
@@ -8,7 +9,7 @@ use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
 use singulate_planner::cost::Cost;
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
-use singulate_planner::scene::{Pose, Scene};
+use singulate_planner::scene::{Object, Pose, Scene};
 use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 /// The most ids in one sentence.
@@ -76,8 +77,8 @@ fn steps(target: &str, statement: &Statement) -> String {
     format!("{}\n{}", table(&columns, rows), last_grasp("Then grasp", target, statement))
 }
 
-fn point(Pose { at }: Pose) -> String {
-    format!("{:.3}, {:.3}", at.x, at.y)
+fn point(pose: Pose) -> String {
+    format!("{:.3}, {:.3}", pose.at.x, pose.at.y)
 }
 
 /// The yaw, and how far it may be off to either side.
@@ -119,15 +120,15 @@ fn why_bound(statement: &Statement) -> String {
     format!("{lines}No fewer than {count} {satisfy} all of these.\n")
 }
 
-fn ids(objects: &[String]) -> String {
-    objects.iter().map(|id| plain(id)).collect::<Vec<_>>().join(", ")
+fn ids<S: AsRef<str>>(objects: &[S]) -> String {
+    objects.iter().map(|id| plain(id.as_ref())).collect::<Vec<_>>().join(", ")
 }
 
 fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
+    let fixed = scene.objects().iter().filter(|object| object.fixed()).map(Object::id);
+    let (fixed, target): (HashSet<&str>, _) = (fixed.collect(), scene.object(scene.target()).id());
     let members = core.iter().map(|id| {
-        let found = scene.find(id);
-        let fixed = found.is_some_and(|found| scene.object(found).fixed());
-        let part = match (found == Some(scene.target()), fixed) {
+        let part = match (id == target, fixed.contains(id.as_str())) {
             (true, _) => "the target",
             (false, true) => "fixed",
             (false, false) => "",
@@ -135,7 +136,8 @@ fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
         vec![plain(id), part.to_owned()]
     });
     let members = table(&[Column::left("object"), Column::left("")], members);
-    let others: Vec<String> = blocked.iter().filter(|id| !core.contains(id)).cloned().collect();
+    let in_core: HashSet<&str> = core.iter().map(String::as_str).collect();
+    let others: Vec<&String> = blocked.iter().filter(|id| !in_core.contains(id.as_str())).collect();
     let others = if others.is_empty() {
         String::new()
     } else {

@@ -7,9 +7,9 @@ use crate::wire::{
     AnswerBody, KnowledgeBody, PlanRequest, Problem, RequestLimits, SurveyBody, VerificationBody, VerifyRequest,
     read_scene, read_verify,
 };
-use singulate_planner::budget::Budget;
+use singulate_planner::budget::{Budget, Interrupted};
 use singulate_planner::knowledge::{NoBase, known};
-use singulate_planner::paper::{GraspModelName, Judged};
+use singulate_planner::paper::{GraspModelName, Judged, histograms};
 use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::search::SILENT;
 use singulate_planner::statement::Statement;
@@ -119,7 +119,11 @@ impl Computation for Knowledge {
             NoBase::Interrupted => late(),
             NoBase::TooLarge => Problem::too_dense(error.to_string()),
         })?;
-        json(&KnowledgeBody::new(&request.scene, &known, model == GraspModelName::Sector))
+        let histograms = match model {
+            GraspModelName::SweptFinger => Vec::new(),
+            GraspModelName::Sector => histograms(&request.scene, budget).map_err(|Interrupted| late())?,
+        };
+        json(&KnowledgeBody::new(&request.scene, &known, &histograms))
     }
 
     fn too_late(self, known: Known<'_, PlanRequest>) -> Served {

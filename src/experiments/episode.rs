@@ -127,13 +127,16 @@ fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
 
 /// True if search and planner agree, as far as each got.
 fn agree(ours: Ending, stated: &Statement) -> bool {
-    let (cost, bound) = (stated.cost.map(Cost::get), stated.lower_bound.map(Cost::get));
+    let at_least = |cost: Option<Cost>, least| cost.is_some_and(|cost| cost.get() >= least);
+    let at_most = |bound: Option<Cost>, least| bound.is_some_and(|bound| bound.get() <= least);
+    let (cost, bound) = (stated.cost, stated.lower_bound);
     match (ours, stated.verdict) {
-        (Ending::Late | Ending::TooLarge, _) | (_, Some(Verdict::TimedOut) | None) => true,
+        (_, None) => false,
+        (Ending::Late | Ending::TooLarge, _) | (_, Some(Verdict::TimedOut)) => true,
         (Ending::Deadlock, verdict) => verdict == Some(Verdict::Deadlock),
         (Ending::Sequence(least), Some(Verdict::Graspable)) => least == 0,
-        (Ending::Sequence(least), Some(Verdict::Relocate)) => cost >= Some(least) && bound <= Some(least),
-        (Ending::Sequence(least), Some(Verdict::NoSpace)) => bound <= Some(least),
+        (Ending::Sequence(least), Some(Verdict::Relocate)) => at_least(cost, least) && at_most(bound, least),
+        (Ending::Sequence(least), Some(Verdict::NoSpace)) => at_most(bound, least),
         (Ending::Sequence(_), Some(Verdict::Deadlock)) => false,
     }
 }
@@ -161,5 +164,8 @@ mod tests {
         assert!(!agree(Ending::Sequence(1), &deadlock));
         assert!(agree(Ending::Deadlock, &deadlock));
         assert!(!agree(Ending::Deadlock, &stated(Verdict::NoSpace)));
+        // Without a bound there is nothing to agree with.
+        assert!(!agree(Ending::Sequence(1), &stated(Verdict::NoSpace)));
+        assert!(!agree(Ending::Sequence(1), &Statement::default()));
     }
 }

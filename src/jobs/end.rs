@@ -2,7 +2,7 @@
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
-use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson};
+use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson, VerdictWord};
 
 /// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,9 +42,11 @@ impl Concluded {
 
 impl Concluded {
     /// With an answer of this verdict.
-    pub(super) fn with(answer: &AnswerBody<'_>, verdict: &'static str) -> Self {
+    pub(super) fn with(answer: &AnswerBody<'_>) -> Self {
         match RawJson::write(answer) {
-            Ok(json) => Self { end: End::Succeeded(json), verdict: Some(verdict), cause: None },
+            Ok(json) => {
+                Self { end: End::Succeeded(json), verdict: answer.verdict.map(VerdictWord::as_str), cause: None }
+            }
             Err(error) => {
                 tracing::error!(%error, "an answer could not be written");
                 Self::internal()

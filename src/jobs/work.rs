@@ -15,7 +15,6 @@ use crate::wire::{AnswerBody, Glance, Problem, RequestLimits, read_job};
 use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
 use singulate_planner::budget::Budget;
 use singulate_planner::search::{Incumbent, Progress};
-use singulate_planner::statement::Verdict;
 
 /// One owner for all jobs in the pool: the store already takes owners in turn, so a claimed job must not wait again.
 const WORKER: &str = "worker";
@@ -70,8 +69,9 @@ impl Work {
         match self.pending.outcome().await {
             Outcome::Done(concluded) => concluded,
             // Only a planner that ignores its time is abandoned; its best so far is not available.
-            Outcome::TimedOut => AnswerBody::unread(&self.glance)
-                .map_or_else(Concluded::internal, |answer| Concluded::with(&answer, Verdict::TimedOut.as_str())),
+            Outcome::TimedOut => {
+                AnswerBody::unread(&self.glance).map_or_else(Concluded::internal, |answer| Concluded::with(&answer))
+            }
             Outcome::Panicked => {
                 tracing::error!(scene = %String::from_utf8_lossy(&self.body), "planning panicked");
                 Concluded::internal()
@@ -90,7 +90,7 @@ fn plan(
     // The body was valid when accepted, but maybe by another version with other limits.
     let request = read_job(body, limits)?.plan;
     let judged = tools.answer(&request, budget, progress)?;
-    Ok(Concluded::with(&AnswerBody::new(&request, &judged), judged.statement().verdict_name()))
+    Ok(Concluded::with(&AnswerBody::new(&request, &judged)))
 }
 
 /// The log lines of one worker about one job.

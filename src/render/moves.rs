@@ -1,5 +1,7 @@
 //! The numbered moves: the old place as a ghost, an arrow, the new place, and the open fingers at both.
 
+use std::collections::HashMap;
+
 use nalgebra::Point2;
 use svg::node::element::{Group, Line, Polygon, Title};
 
@@ -13,16 +15,16 @@ use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step};
 
 /// Every relocation and the target's grasp. Arrows and numbers come last, so that no disc hides them.
 pub(super) fn plan(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> Group {
-    let steps = || stated.steps().iter().enumerate().map(|(at, step)| (at, Move::new(at + 1, step, roles)));
-    let places = steps().fold(Group::new().set("class", "relocations"), |group, (at, step)| {
-        let Some(step) = step else { return group };
-        let again = stated.steps()[at + 1..].iter().any(|later| later.object() == step.object.id());
+    let last: HashMap<&str, usize> =
+        stated.steps().iter().enumerate().map(|(at, step)| (step.object(), at + 1)).collect();
+    let steps = || stated.steps().iter().enumerate().filter_map(|(at, step)| Move::new(at + 1, step, roles));
+    let places = steps().fold(Group::new().set("class", "relocations"), |group, step| {
+        let again = last.get(step.object.id()) != Some(&step.number);
         group.add(places(scene, &step, again, view))
     });
-    let routes = steps().filter_map(|(_, step)| step);
-    let routes = routes.fold(Group::new().set("class", "routes"), |group, step| group.add(route(&step, view)));
-    let last = stated.target_grasp.map(|grasp| target_grasp(scene, grasp, view));
-    Group::new().add(places).add(last.unwrap_or_default()).add(routes)
+    let routes = steps().fold(Group::new().set("class", "routes"), |group, step| group.add(route(&step, view)));
+    let target = stated.target_grasp.map(|grasp| target_grasp(scene, grasp, view));
+    Group::new().add(places).add(target.unwrap_or_default()).add(routes)
 }
 
 /// One pick-and-place with its object.
@@ -36,7 +38,7 @@ struct Move<'a> {
 impl<'a> Move<'a> {
     /// `None` for an object that is not in the scene.
     fn new(number: usize, step: &'a Step, roles: &Roles<'a>) -> Option<Self> {
-        let Step::PickPlace(step) = step;
+        let step = step.pick_place()?;
         let object = roles.object(&step.object)?;
         Some(Self { number, object, from: step.from.unwrap_or(object.footprint().pose), step })
     }

@@ -95,5 +95,5 @@ fn drawn<'a>(
         object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object.moved_to(pose))))
     });
     let target = stated.target_grasp.map(|_| reach(scene.object(scene.target()).footprint()));
-    scene.objects().iter().map(|object| object.footprint().bounds()).chain(moved).chain(target)
+    scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
 }

@@ -163,6 +163,20 @@ pub fn warnings(request: &PlanRequest, judged: &Judged) -> Vec<WarningItem> {
     request.warnings.iter().cloned().chain(of_answer).collect()
 }
 
+impl VerdictWord {
+    /// Its name in JSON and logs.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Graspable => Verdict::Graspable,
+            Self::Relocate => Verdict::Relocate,
+            Self::Deadlock => Verdict::Deadlock,
+            Self::NoSpace => Verdict::NoSpace,
+            Self::TimedOut => Verdict::TimedOut,
+        }
+        .as_str()
+    }
+}
+
 impl From<Verdict> for VerdictWord {
     fn from(verdict: Verdict) -> Self {
         match verdict {

@@ -1,10 +1,12 @@
 //! Shadows and options as JSON.
 
+use core::iter;
+
 use serde::Serialize;
 use utoipa::ToSchema;
 
 use singulate_planner::geometry::Arc;
-use singulate_planner::knowledge::Known;
+use singulate_planner::knowledge::ObjectKnowledge;
 use singulate_planner::paper::PolarHistogram;
 use singulate_planner::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
@@ -65,15 +67,16 @@ pub struct HistogramBody {
 }
 
 impl KnowledgeBody {
-    /// The knowledge of a scene's objects; with the paper's histograms where its sectors are the grasp model.
-    pub fn new(scene: &Scene, known: &[Known], sectors: bool) -> Self {
-        Self { objects: known.iter().map(|known| KnownObject::new(scene, known, sectors)).collect() }
+    /// The knowledge of a scene's objects, with the paper's histograms of them, if there are any.
+    pub fn new(scene: &Scene, known: &[ObjectKnowledge], histograms: &[Option<PolarHistogram>]) -> Self {
+        let histograms = histograms.iter().map(Option::as_ref).chain(iter::repeat(None));
+        let objects = known.iter().zip(histograms);
+        Self { objects: objects.map(|(known, histogram)| KnownObject::new(scene, known, histogram)).collect() }
     }
 }
 
 impl KnownObject {
-    fn new(scene: &Scene, known: &Known, sectors: bool) -> Self {
-        let histogram = |object| HistogramBody::new(&PolarHistogram::around(scene, object));
+    fn new(scene: &Scene, known: &ObjectKnowledge, histogram: Option<&PolarHistogram>) -> Self {
         let id = |object: &ObjectIndex| scene.object(*object).id().to_owned();
         let shadow = |obstacle, arcs| ShadowBody { obstacle, intervals: intervals(arcs) };
         let blockers = known.shadows.iter();
@@ -82,7 +85,7 @@ impl KnownObject {
             options: known.options.iter().map(|option| option.members.iter().map(id).collect()).collect(),
             option_yaws: known.options.iter().map(|option| intervals(&option.free)).collect(),
             shadows: blockers.map(|blocker| shadow(id(&blocker.object), blocker.shadow.arcs())).collect(),
-            histogram: (sectors && !scene.object(known.object).fixed()).then(|| histogram(known.object)),
+            histogram: histogram.map(HistogramBody::new),
         }
     }
 }

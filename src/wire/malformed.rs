@@ -17,7 +17,7 @@ const GZIP: &[u8] = b"\x1f\x8b";
 /// The problem of a body that is not JSON, and what a walk has found in it.
 pub(super) fn malformed(body: &[u8], found: Walk<'_>) -> Problem {
     let faults = faults(body, found);
-    let detail = faults.first().map(|fault| fault.detail.clone()).unwrap_or_default();
+    let detail = faults.first().map_or_else(|| "not JSON".to_owned(), |fault| fault.detail.clone());
     Problem::new(ProblemKind::MalformedJson, detail).with_errors(faults)
 }
 

@@ -135,14 +135,6 @@ const DEADLOCK: Names = Names::of(&["blocked", "core"]);
 /// The greatest count that may be stated; far above any that can hold.
 const MAX_COUNT: u64 = 1_000_000_000;
 
-const VERDICTS: [(&str, Verdict); 5] = [
-    ("graspable", Verdict::Graspable),
-    ("relocate", Verdict::Relocate),
-    ("deadlock", Verdict::Deadlock),
-    ("no_space", Verdict::NoSpace),
-    ("timed_out", Verdict::TimedOut),
-];
-
 /// Read a scene and a stated answer.
 ///
 /// # Errors
@@ -185,7 +177,9 @@ fn verify(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option
 
 fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Option<Statement> {
     let fields = node.fields(&PLAN, faults)?;
-    let verdict = fields.stated("verdict", faults, |node, faults| node.word(&VERDICTS, faults));
+    let verdict = fields.stated("verdict", faults, |node, faults| {
+        node.word(&Verdict::ALL.map(|verdict| (verdict.as_str(), verdict)), faults)
+    });
     fields.stated("scene_id", faults, |node, faults| node.text(faults));
     fields.stated("target", faults, |node, faults| target(node, scene_target, faults));
     let relocations = fields.required("relocations", faults, |node, faults| {

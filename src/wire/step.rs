@@ -148,10 +148,10 @@ pub(super) fn read(node: Node<'_>, faults: &mut Faults) -> Option<Step> {
     let object = fields.required("object", faults, |node, faults| node.text(faults));
     let from = fields.stated("from", faults, point);
     let to = fields.required("to", faults, point);
-    let grasp_yaw = fields.required("grasp", faults, read_grasp);
+    let grasp = fields.required("grasp", faults, read_grasp);
     let release = fields.required("release", faults, read_grasp);
     let gap = fields.stated("gap", faults, |node, faults| node.number(faults));
-    Some(Step::PickPlace(PickPlace { object: object?, from, to: to?, grasp: grasp_yaw?, release: release?, gap }))
+    Some(Step::PickPlace(PickPlace { object: object?, from, to: to?, grasp: grasp?, release: release?, gap }))
 }
 
 fn point(node: Node<'_>, faults: &mut Faults) -> Option<Pose> {

@@ -152,18 +152,43 @@ fn the_service_re_exports_nothing_of_the_planner() {
     }
 }
 
+/// The arithmetic that the planner and the scene share, which the checker does by itself.
+const NOT_THE_CHECKERS: [&str; 10] = [
+    "FootprintIndex",
+    ".index()",
+    ".comes_within(",
+    ".gap_inside(",
+    ".gap_outside(",
+    ".circumradius(",
+    ".inradius(",
+    ".bounding_box(",
+    ".reach(",
+    "distance(",
+];
+
 /// Beside what the order of the rooms forbids: the checker stands below all that makes answers.
 #[test]
 fn the_checker_shares_only_the_scene_and_the_statement() {
-    let mut seen = 0;
-    for Source { path, text, .. } in sources().iter().filter(|source| source.room == "check") {
-        seen += 1;
+    let sources = sources();
+    let (check, others): (Vec<_>, Vec<_>) = sources.iter().partition(|source| source.room == "check");
+    assert!(check.len() > 5, "the checker's files are read");
+    for Source { path, text, .. } in check {
         let shared = ["budget", "cost", "scene", "statement", "check"];
         assert!(named_rooms(text).iter().all(|room| shared.contains(room)), "{}", path.display());
-        assert!(!text.contains("super::super") && !names(text, "DiscIndex"), "{}", path.display());
-        assert!(!text.contains(".index()"), "{} uses the scene's index", path.display());
+        assert!(!text.contains("super::super"), "{}", path.display());
+        let imports: Vec<&str> = text.lines().filter(|line| line.starts_with("use crate::scene")).collect();
+        for word in NOT_THE_CHECKERS {
+            let own = word == "distance(";
+            let used = if own { imports.iter().any(|line| names(line, "distance")) } else { text.contains(word) };
+            assert!(!used, "{} uses the scene's {word}", path.display());
+        }
+        // `gap` of a step is a field, of the checker a function; of a footprint it is a method.
+        assert!(!text.replace("self.places.least_gap(", "").contains(".gap("), "{}", path.display());
     }
-    assert!(seen > 5, "the checker's files are read");
+    // A word that nobody else uses forbids nothing.
+    for word in NOT_THE_CHECKERS {
+        assert!(others.iter().any(|source| source.text.contains(word)), "{word} is used nowhere");
+    }
 }
 
 #[test]

@@ -98,6 +98,34 @@ fn the_files_to_touch_are_counted() {
     }
 }
 
+/// The files of a row of "To add X, touch Y".
+fn row<'a>(page: &'a str, thing: &str) -> (&'a str, Vec<String>) {
+    let rows = section(page, "To add X, touch Y").lines();
+    let row = rows.into_iter().find(|line| line.starts_with(&format!("| {thing}"))).unwrap();
+    (row, quoted(row).into_iter().flat_map(paths).collect())
+}
+
+/// What matches on the shapes and the actions of today are files that the page names: a new one has to be added there.
+#[test]
+fn all_that_knows_the_shapes_and_the_actions_is_named() {
+    let page = page();
+    for (thing, words) in [
+        ("a shape", &["Shape::Disc", "Self::Disc", "Pose { at"][..]),
+        ("an action", &["Step::PickPlace", "Self::PickPlace(", "Way::Picked"]),
+    ] {
+        let (_, named) = row(&page, thing);
+        let mut seen = 0;
+        for Source { path, text, .. } in sources() {
+            let inside = path.strip_prefix(ROOT).unwrap().to_str().unwrap();
+            if words.iter().any(|word| text.contains(word)) && !inside.contains("/tests") {
+                seen += 1;
+                assert!(named.iter().any(|file| file == inside), "{thing}: {inside} is not named");
+            }
+        }
+        assert!(seen > 4, "{thing}: {seen}");
+    }
+}
+
 /// The words between backticks in the last column of the tables of a section, row by row.
 fn last_column<'a>(page: &'a str, heading: &str) -> Vec<Vec<&'a str>> {
     let rows = section(page, heading).lines().filter(|line| line.starts_with("| ")).skip(2);

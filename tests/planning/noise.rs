@@ -57,7 +57,7 @@ fn answered(request: &PlanRequest, named: &str) -> Statement {
 /// pair overlaps deeper than it did.
 fn keeps_apart(scene: &Scene, steps: &[Step], named: &str) {
     let mut discs: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint()).collect();
-    for Step::PickPlace(step) in steps {
+    for step in steps.iter().filter_map(Step::pick_place) {
         let at = scene.find(&step.object).unwrap().get();
         assert_eq!(Some(discs[at].pose), step.from, "{named}");
         discs[at].pose = step.to;

@@ -45,7 +45,7 @@ fn a_place_keeps_five_millimetres_from_the_edge_whatever_the_margin_and_nothing_
         let stated = planned_for(row(width, margin), Objective::FarFromTarget);
         assert_eq!(stated.verdict, Some(Verdict::Relocate), "{width} {margin}");
         let gap = |at: f64, side: f64| at.min(side - at) - 0.04;
-        for Step::PickPlace(step) in stated.steps() {
+        for step in stated.steps().iter().filter_map(Step::pick_place) {
             let nearest = gap(step.to.at.x, 1.0).min(gap(step.to.at.y, width));
             assert!((nearest - edge).abs() < 1e-5, "{width} {margin}: {nearest}");
             assert!(step.gap.unwrap() >= margin, "{:?}", step.gap);
@@ -151,7 +151,8 @@ fn no_short_move_is_much_longer_than_sampling_finds() {
     for seed in 0..200 {
         let (scene, _) = Scene::new(varied(seed), &SceneLimits::default()).unwrap();
         let stated = planned(&scene, Objective::ShortMoves);
-        let [Step::PickPlace(step)] = stated.steps() else { continue };
+        let [step] = stated.steps() else { continue };
+        let step = step.pick_place().unwrap();
         let own = scene.object(scene.find(&step.object).unwrap()).footprint();
         let moved = (step.to.at - step.from.unwrap().at).norm();
         if step.gap.unwrap() >= 0.005 + scene.gripper().margin()

@@ -91,7 +91,7 @@ fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Fa
 }
 
 /// A sentence that describes how the target is freed.
-fn way(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
+fn how_freed(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
     let named: Vec<_> =
         lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();
     let more = match lifted.len() - named.len() {
@@ -127,7 +127,7 @@ impl Sound {
             return Ok(());
         }
         if let Some(freed) = chain.frees_target(scene, &members, ticker)? {
-            let detail = || format!("landmark {at} can be left as it stands: {}", way(scene, &freed));
+            let detail = || format!("landmark {at} can be left as it stands: {}", how_freed(scene, &freed));
             faults.of_answer(FaultCode::LandmarkRefuted, detail);
             return Ok(());
         }

@@ -54,7 +54,7 @@ pub enum FaultCode {
     MissingPart,
     /// A part is there that does not go with this verdict.
     UnexpectedPart,
-    /// The stated cost is not the number of relocations, or a plan without relocations is not called graspable.
+    /// The stated cost is not that of the steps, or a plan without relocations is not called graspable.
     WrongCost,
     /// `optimal` contradicts cost and bound.
     WrongOptimal,
@@ -70,7 +70,7 @@ pub enum FaultCode {
     LandmarkRefuted,
     /// A lock without the target.
     LockWithoutTarget,
-    /// A member of a lock has a free yaw even with all other members in place.
+    /// A member of a lock can be moved, or the target grasped, even with all other members in place.
     LockMemberFree,
     /// The core is not within the greatest lock.
     CoreOutsideBlocked,
@@ -93,8 +93,9 @@ impl FaultCode {
         )
     }
 
-    /// True if it refutes a bound or a lock.
-    pub fn refutes_a_proof(self) -> bool {
+    /// True if it can only be a bug of ours, whichever methods were asked for: a bound, a lock, or a part that our own code
+    /// states. Steps of the paper's methods may have other faults.
+    pub(crate) fn is_a_bug_of_ours(self) -> bool {
         matches!(
             self,
             Self::BoundUnproven

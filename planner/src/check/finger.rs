@@ -55,9 +55,23 @@ impl Finger {
         libm::atan2(across, self.outer)
     }
 
+    /// How much nearer than the margin an obstacle comes to the fingers round `grasped` while the yaw is within `yaw` ± `band`
+    /// (rad), m; negative if it keeps away.
+    pub(super) fn depth(
+        &self,
+        gripper: &Gripper,
+        grasped: &Footprint,
+        obstacle: &Footprint,
+        (yaw, band): (f64, f64),
+    ) -> f64 {
+        let Shape::Disc { radius } = obstacle.shape;
+        let away = self.closest(gripper, obstacle.pose.at - grasped.pose.at, yaw, band);
+        radius + gripper.margin() - away
+    }
+
     /// The least distance (m) from any of the fingers to the point `obstacle` (relative to the object's centre) while the
     /// yaw is within `yaw` ± `band` (rad). The least is at an end of the band, or at a nearest offset within it.
-    pub(super) fn closest(&self, gripper: &Gripper, obstacle: Vector2<f64>, yaw: f64, band: f64) -> f64 {
+    fn closest(&self, gripper: &Gripper, obstacle: Vector2<f64>, yaw: f64, band: f64) -> f64 {
         let (distance, bearing) = (obstacle.norm(), libm::atan2(obstacle.y, obstacle.x));
         let nearest = self.nearest_offset(distance);
         let mut closest = f64::INFINITY;

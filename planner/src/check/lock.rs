@@ -7,7 +7,7 @@ use crate::statement::{Deadlock, Statement};
 use super::fault::{FaultCode, Faults};
 use super::names::Names;
 use super::rings::Rings;
-use super::ways::way;
+use super::ways::{grasp, way};
 
 /// Both locks of a stated deadlock.
 pub(super) fn check(
@@ -78,7 +78,7 @@ impl Lock {
         self.is_member[object.get()]
     }
 
-    /// The target is a member, and no movable member can be moved while all members stand.
+    /// The target is a member. While all members stand, it can't be grasped, and no other movable member can be moved.
     fn check(
         &self,
         scene: &Scene,
@@ -93,7 +93,9 @@ impl Lock {
         for member in self.members.iter().filter(|member| !scene.object(**member).fixed()) {
             let ring = rings.ring(*member, ticker)?;
             ticker.step(1 + ring.len() / 64)?;
-            if let Some(way) = way(rings, &ring, |object| self.holds(object)) {
+            let stands = |object| self.holds(object);
+            let way = if *member == scene.target() { grasp(rings, &ring, stands) } else { way(rings, &ring, stands) };
+            if let Some(way) = way {
                 let detail = || format!("{way} though all of '{}' stand", self.name);
                 faults.of_object(FaultCode::LockMemberFree, scene.object(*member).id(), detail);
             }

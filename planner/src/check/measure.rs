@@ -1,14 +1,13 @@
-//! The checker's own measures of footprints: from one to a point, to another, to a rectangle.
+//! The checker's own measures of footprints: from one to a point, to another, to a rectangle. It uses none of the
+//! scene's, so that a fault of one is not a fault of both.
 
 use nalgebra::{Point2, Vector2};
 
-use crate::scene::{Footprint, Rectangle, Shape};
+use crate::scene::{Footprint, Pose, Rectangle, Shape};
 
-/// The core of a footprint and the radius by which it is grown, m: what keeps its distance from fingers.
-pub(super) fn core(footprint: &Footprint) -> (Point2<f64>, f64) {
-    match footprint.shape {
-        Shape::Disc { radius } => (footprint.pose.at, radius),
-    }
+/// How far apart two poses are, m.
+pub(super) fn apart(a: Pose, b: Pose) -> f64 {
+    (a.at - b.at).norm()
 }
 
 /// From the edge of a footprint to a point, m; negative inside.

@@ -45,7 +45,7 @@ impl Moving<'_, '_> {
             } else if self.moved[object.get()] {
                 wrong("is named twice");
             } else if !self.can_be_moved(object, ticker)? {
-                wrong("has no free yaw when its turn comes");
+                wrong("can't be moved when its turn comes");
             }
             self.moved[object.get()] = relocatable(self.scene, object);
         }

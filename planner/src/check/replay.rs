@@ -5,13 +5,13 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Footprint, ObjectIndex, Scene};
+use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
 use crate::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 use super::TOLERANCE;
 use super::fault::{FaultCode, Faults, figure};
 use super::finger::Finger;
-use super::measure::core;
+use super::measure::apart;
 use super::names::Names;
 use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
@@ -80,7 +80,7 @@ impl Replay<'_> {
             return Ok(());
         };
         if let Some(from) = step.from {
-            self.stands_as_stated(at, object, from.at);
+            self.stands_as_stated(at, object, from);
         }
         self.grasp(FaultCode::GraspBlocked, Some(at), object, self.footprint(object), step.grasp)?;
         let place = self.places.footprint(to);
@@ -110,12 +110,12 @@ impl Replay<'_> {
         self.places.footprint(self.standing.place(object))
     }
 
-    fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Point2<f64>) {
-        let real = self.footprint(object).pose.at;
+    fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Pose) {
+        let real = self.footprint(object).pose;
         // NaN agrees with nothing.
-        let agrees = (real - stated).norm() <= TOLERANCE;
+        let agrees = apart(real, stated) <= TOLERANCE;
         if !agrees {
-            let detail = || format!("stands at {}, not at {}", point(real), point(stated));
+            let detail = || format!("stands at {}, not at {}", point(real.at), point(stated.at));
             self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), detail);
         }
     }
@@ -150,9 +150,9 @@ impl Replay<'_> {
     ) -> Result<(), Interrupted> {
         let Some(band) = self.band(step, object, grasp) else { return Ok(()) };
         let gripper = self.scene.gripper();
-        let (finger, centre) = (Finger::new(gripper, &grasped), grasped.pose.at);
+        let finger = Finger::new(gripper, &grasped);
         let (mut near, mut visited) = (Vec::new(), 0);
-        self.places.within(centre, finger.corner_distance() + gripper.margin(), |place| {
+        self.places.within(grasped.pose.at, finger.corner_distance() + gripper.margin(), |place| {
             visited += 1;
             let owner = self.places.owner(place);
             if owner != object && self.standing.place(owner) == place {
@@ -163,9 +163,7 @@ impl Replay<'_> {
         let mut worst: Option<(f64, ObjectIndex)> = None;
         for owner in near {
             self.ticker.step(1)?;
-            let (core, radius) = core(&self.footprint(owner));
-            let away = finger.closest(gripper, core - centre, grasp.yaw, band);
-            let depth = radius + gripper.margin() - away;
+            let depth = finger.depth(gripper, &grasped, &self.footprint(owner), (grasp.yaw, band));
             if depth > TOLERANCE && worst.is_none_or(|(deepest, _)| depth > deepest) {
                 worst = Some((depth, owner));
             }

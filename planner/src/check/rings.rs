@@ -6,9 +6,8 @@ use crate::budget::{Interrupted, Ticker};
 use crate::scene::{ObjectIndex, Scene};
 
 use super::finger::Finger;
-use super::measure::core;
 use super::near::Tree;
-use super::yaws::blocked_yaws;
+use super::yaws::blocked_by;
 
 /// How a case is decided that rounding leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,18 +104,17 @@ impl<'s> Rings<'s> {
 
     fn make(&self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<Ring, Interrupted> {
         let (gripper, grasped) = (self.scene.gripper(), self.scene.object(object).footprint());
-        let (finger, centre) = (Finger::new(gripper, &grasped), grasped.pose.at);
+        let finger = Finger::new(gripper, &grasped);
         let reach = (finger.corner_distance() + gripper.margin()) * (1.0 + 4.0 * LENGTH_LEANING);
         let mut near = Vec::new();
-        self.start.within(centre, reach, |at| near.push(ObjectIndex::new(at)));
+        self.start.within(grasped.pose.at, reach, |at| near.push(ObjectIndex::new(at)));
         ticker.step(1)?;
         let mut shades = Vec::new();
         for by in near.into_iter().filter(|by| *by != object) {
             ticker.step(1)?;
-            let (core, radius) = core(&self.scene.object(by).footprint());
-            let (rho, apart) = (radius + gripper.margin(), core - centre);
-            let rho = rho + self.leaning.sign() * LENGTH_LEANING * (rho + apart.norm());
-            let yaws = blocked_yaws(&finger, gripper.period(), apart, rho);
+            let obstacle = self.scene.object(by).footprint();
+            let leaning = self.leaning.sign() * LENGTH_LEANING;
+            let yaws = blocked_by(&obstacle, &finger, &grasped, gripper, leaning);
             shades.extend(yaws.into_iter().map(|[lo, hi]| Shade { lo, hi, by }));
         }
         shades.sort_unstable_by(|a, b| a.lo.total_cmp(&b.lo).then(a.by.cmp(&b.by)));
@@ -161,10 +159,10 @@ mod tests {
         let finger = Finger::new(gripper, &target);
         (0..500).any(|sample| {
             let yaw = gripper.period() * f64::from(sample) / 500.0;
-            scene.indices().filter(|object| *object != scene.target()).all(|object| {
-                let (core, radius) = core(&scene.object(object).footprint());
-                finger.closest(gripper, core - target.pose.at, yaw, band) >= radius
-            })
+            scene
+                .indices()
+                .filter(|object| *object != scene.target())
+                .all(|object| finger.depth(gripper, &target, &scene.object(object).footprint(), (yaw, band)) <= 0.0)
         })
     }
 

@@ -17,6 +17,11 @@ pub(super) enum Way {
     },
 }
 
+/// The way in which the target, whose ring this is, can be grasped in the end.
+pub(super) fn grasp(rings: &Rings<'_>, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<Way> {
+    rings.free_yaw(ring, stands).map(|yaw| Way::Picked { yaw })
+}
+
 /// The way in which the object of the ring can be moved off its place, counting only obstacles for which `stands` is true.
 pub(super) fn way(rings: &Rings<'_>, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<Way> {
     rings.free_yaw(ring, stands).map(|yaw| Way::Picked { yaw })

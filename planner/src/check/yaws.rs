@@ -11,6 +11,7 @@ use nalgebra::Vector2;
 use smallvec::SmallVec;
 
 use super::finger::Finger;
+use crate::scene::{Footprint, Gripper, Shape};
 
 /// A closed interval of yaws within [0, period], rad.
 pub(super) type Interval = [f64; 2];
@@ -66,8 +67,22 @@ fn blocked_offsets(finger: &Finger, distance: f64, rho: f64) -> Intervals {
     blocked
 }
 
+/// The yaws at which `obstacle` blocks a grasp of `grasped`. The distance to keep is lengthened by `leaning` times the lengths
+/// involved.
+pub(super) fn blocked_by(
+    obstacle: &Footprint,
+    finger: &Finger,
+    grasped: &Footprint,
+    gripper: &Gripper,
+    leaning: f64,
+) -> Intervals {
+    let Shape::Disc { radius } = obstacle.shape;
+    let (rho, apart) = (radius + gripper.margin(), obstacle.pose.at - grasped.pose.at);
+    blocked_yaws(finger, gripper.period(), apart, rho + leaning * (rho + apart.norm()))
+}
+
 /// The yaws, modulo `period`, at which an obstacle at `obstacle` from the object's centre blocks a finger grown by `rho`.
-pub(super) fn blocked_yaws(finger: &Finger, period: f64, obstacle: Vector2<f64>, rho: f64) -> Intervals {
+fn blocked_yaws(finger: &Finger, period: f64, obstacle: Vector2<f64>, rho: f64) -> Intervals {
     let (distance, mut yaws) = (obstacle.norm(), Intervals::new());
     if distance >= finger.corner_distance() + rho {
         return yaws;

@@ -70,7 +70,7 @@ impl KnowledgeBase {
         self.rules_of(object).map(|rule| self.body(rule))
     }
 
-    /// True if the object can be moved as the table stands.
+    /// True if the object can be picked as the table stands.
     pub fn free_now(&self, object: ObjectIndex) -> bool {
         self.options(object).any(<[_]>::is_empty)
     }

@@ -19,7 +19,7 @@ pub struct KnownOption {
 
 /// The knowledge of one object.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Known {
+pub struct ObjectKnowledge {
     /// The object.
     pub object: ObjectIndex,
     /// Its options, none with a fixed object; empty for a fixed object.
@@ -32,7 +32,7 @@ pub struct Known {
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or if the objects are too dense.
-pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Result<Vec<Known>, NoBase> {
+pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Result<Vec<ObjectKnowledge>, NoBase> {
     let base = complete(scene, model, budget)?;
     let each = scene.indices().map(|object| {
         budget.check()?;
@@ -41,9 +41,9 @@ pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Resu
     each.collect()
 }
 
-fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object: ObjectIndex) -> Known {
+fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object: ObjectIndex) -> ObjectKnowledge {
     if scene.object(object).fixed() {
-        return Known { object, options: Vec::new(), shadows: Vec::new() };
+        return ObjectKnowledge { object, options: Vec::new(), shadows: Vec::new() };
     }
     let shadows = blockers(scene, object, model);
     let movable = |option: &&[ObjectIndex]| !option.iter().any(|member| scene.object(*member).fixed());
@@ -51,7 +51,7 @@ fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object
         .options(object)
         .filter(movable)
         .map(|option| KnownOption { members: option.to_vec(), free: free_without(scene, &shadows, option) });
-    Known { object, options: options.collect(), shadows }
+    ObjectKnowledge { object, options: options.collect(), shadows }
 }
 
 /// The free yaws once the objects `gone` are removed, in intervals wide enough to count.

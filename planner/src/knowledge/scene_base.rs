@@ -113,9 +113,9 @@ pub fn fixed_blockers(
     Ok(found)
 }
 
-/// The bodies of the rules by which an object can be moved: for each action that the robot has, what must go before. Today
-/// the one action is pick-and-place, and the bodies are the options of the grasp model; none for a fixed object. Options with
-/// a fixed member stay: their rules never fire, and locks need them.
+/// The bodies of the rules by which an object is picked: the options of the grasp model; none for a fixed object. Options with
+/// a fixed member stay: their rules never fire, and locks need them. An action that moves objects without grasping them adds
+/// its bodies here, for all but the target, which is grasped in the end.
 fn bodies(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Vec<Vec<ObjectIndex>> {
     if scene.object(object).fixed() { Vec::new() } else { model.options(scene, object) }
 }

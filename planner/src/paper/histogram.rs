@@ -2,6 +2,7 @@
 //! sectors of one degree (α = 1).
 
 use super::angles::{finger_angle, obstacle_extent, radius};
+use crate::budget::{Budget, Interrupted};
 use crate::scene::{ObjectIndex, Scene, distance};
 
 /// The side of a cell of the grid in which Eq. 1 measures distances, m. The paper gives no figure; whether a sector is
@@ -25,6 +26,18 @@ struct LocalObstacle {
     bearing: f64,
     /// γ_total / 2, degrees.
     half: f64,
+}
+
+/// The histogram round each object, in index order; `None` for a fixed one.
+///
+/// # Errors
+/// [`Interrupted`] when the budget ends.
+pub fn histograms(scene: &Scene, budget: &Budget<'_>) -> Result<Vec<Option<PolarHistogram>>, Interrupted> {
+    let each = scene.indices().map(|object| {
+        budget.check()?;
+        Ok((!scene.object(object).fixed()).then(|| PolarHistogram::around(scene, object)))
+    });
+    each.collect()
 }
 
 /// The polar histogram round one object.

@@ -9,7 +9,7 @@ use super::search::{SearchLimits, Sought, seek};
 use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, Locks, NoBase, SweptFinger, relevant};
-use crate::plan::prove_deadlock;
+use crate::plan::{ids, prove_deadlock};
 use crate::scene::Scene;
 use crate::search::{LeastSet, SILENT};
 use crate::statement::{Statement, Verdict};
@@ -141,7 +141,7 @@ fn applied(
         }
         (Some(Verdict::Relocate), Opinion::Bound(set)) => stated.bounded(scene, &set),
         (Some(Verdict::NoSpace | Verdict::TimedOut), Opinion::Bound(set)) => {
-            let needed = stated.needed.or_else(|| Statement::cut_off(scene, &set.derivation.order).needed);
+            let needed = stated.needed.or_else(|| Some(ids(scene, &set.derivation.order)));
             Statement { needed, ..stated }.bounded(scene, &set)
         }
         _ => stated,

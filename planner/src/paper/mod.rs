@@ -27,7 +27,7 @@ mod warning;
 pub use angles::tangent_angles;
 pub use conclusion::Conclusion;
 pub use forward_astar::forward_astar;
-pub use histogram::PolarHistogram;
+pub use histogram::{PolarHistogram, histograms};
 pub use lobs::lobs;
 pub use methods::{GraspModelName, Methods, PlacementMethod, SearchMethod};
 pub use planner::{Judged, plan_by};

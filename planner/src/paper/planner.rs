@@ -170,7 +170,7 @@ fn confirm(
         return Ok(stated);
     }
     let report = Checker::new(scene).check(&stated, budget);
-    if report.faults.iter().any(|fault| fault.code.refutes_a_proof()) {
+    if report.faults.iter().any(|fault| fault.code.is_a_bug_of_ours()) {
         return Err(PlanError::Refused(report));
     }
     let mut confirmed = confirmed_part(scene, stated, &report);

@@ -67,8 +67,8 @@ impl Border {
         self.sides.iter().flat_map(|side| side.extremes(point)).for_each(add);
     }
 
-    /// No point of its circles is nearer to `point` than this, m; infinite if there are none.
-    pub(super) fn nearest(&self, point: Point2<f64>) -> f64 {
+    /// No point of its circles is nearer to `point` than this, m. For a border without sides: that round an obstacle.
+    pub(super) fn nearest_of_circles(&self, point: Point2<f64>) -> f64 {
         let away = |circle: &Circle| (distance(circle.centre, point) - circle.radius).abs();
         self.circles.iter().map(away).fold(f64::INFINITY, f64::min)
     }

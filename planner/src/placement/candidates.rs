@@ -172,7 +172,7 @@ impl Candidates {
             && self.stands_free(layout, &place, gap)
     }
 
-    /// True if no other object is nearer to `place` than `gap`, m.
+    /// True if no other object is nearer to `place` than `gap`, m. The index only narrows the choice.
     fn stands_free(&self, layout: &Layout<'_>, place: &Footprint, gap: f64) -> bool {
         layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.gap(&other) >= gap)
     }
@@ -219,7 +219,7 @@ impl Candidates {
             self.span = self.span.max(border.farthest(at));
             let score = match self.spec.objective {
                 Objective::FarFromTarget => border.farthest(self.origin),
-                Objective::ShortMoves => -border.nearest(self.origin),
+                Objective::ShortMoves => -border.nearest_of_circles(self.origin),
             };
             self.heap.push(Entry { score, at, kind: Kind::Obstacle(object) });
         }

@@ -68,6 +68,11 @@ impl<'a> Layout<'a> {
         in_place.chain(moved).filter(|(object, _)| !self.is_lifted(*object))
     }
 
+    /// How near to the origin of `grasped` another object must come to block a grasp of it, m.
+    pub(super) fn reach(&self, grasped: &Footprint) -> f64 {
+        self.model.reach(self.scene.gripper(), grasped)
+    }
+
     /// The blocked yaws of a grasp or release of `object` at `place`. Fingers keep the margin and `extra` (m) from all
     /// other objects.
     pub fn blocked(&self, object: ObjectIndex, place: &Footprint, extra: f64) -> ArcSet {

@@ -60,7 +60,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
     ) -> Result<(Pose, Grasp), Stop> {
         let (mut free, mut blocked) = (place, self.layout.footprint(object).at());
         for _ in 0..HALVINGS {
-            let middle = Pose { at: nalgebra::center(&free.0.at, &blocked) };
+            let middle = Pose::from(nalgebra::center(&free.0.at, &blocked));
             match self.release(candidates, object, middle, rest)? {
                 Some(release) => free = (middle, release),
                 None => blocked = middle.at,
@@ -99,10 +99,9 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         rest: &[ObjectIndex],
     ) -> Result<bool, Stop> {
         let target = self.layout.scene().target();
-        let gripper = self.layout.scene().gripper();
         let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
             let grasped = layout.footprint(other);
-            distance(grasped.at(), place.at()) < gripper.reach(&grasped) + place.circumradius()
+            distance(grasped.at(), place.at()) < layout.reach(&grasped) + place.circumradius()
         };
         if !rest.iter().chain([&target]).any(|&other| hinders(&self.layout, other)) {
             return Ok(true);

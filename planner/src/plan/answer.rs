@@ -5,10 +5,10 @@ use core::time::Duration;
 use crate::budget::Budget;
 use crate::statement::Statement;
 
-/// A checked statement, and how long it took.
+/// A statement, and how long it took.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// As the checker confirmed it, and as it is served.
+    /// As it is served. By our own methods: as the checker confirmed it.
     pub statement: Statement,
     /// Not part of the answer's identity: it differs between runs.
     pub statistics: Statistics,

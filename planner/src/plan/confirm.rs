@@ -69,35 +69,89 @@ pub(crate) fn confirmed_part(scene: &Scene, stated: Statement, report: &Report) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::budget::clocks::Looks;
     use crate::cost::Cost;
     use crate::plan::{Settings, plan};
+    use crate::scene::ObjectIndex;
     use crate::scene::scenes::TestScene;
-    use crate::search::SILENT;
+    use crate::search::{Derivation, LeastSet, SILENT};
+    use crate::statement::Verdict;
 
-    #[test]
-    fn what_the_search_knows_but_cannot_show_is_not_served() {
-        // Two fingers, and four plates round the target: two on opposite sides must be moved.
-        let scene = TestScene::new(2)
+    /// Two fingers, and four plates round the target: two on opposite sides must be moved.
+    fn crossed() -> TestScene {
+        TestScene::new(2)
             .finger(0.04, 0.05)
             .disc("cup", 1.0, 1.0, 0.03)
             .disc("east", 1.13, 1.0, 0.08)
             .disc("north", 1.0, 1.13, 0.08)
             .disc("west", 0.87, 1.0, 0.08)
             .disc("south", 1.0, 0.87, 0.08)
-            .build("cup");
-        let answer = plan(&scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap();
-        let two = Some(Cost::new(2));
-        let stated = answer.statement;
-        assert_eq!((stated.optimal, stated.cost, stated.lower_bound), (Some(true), two, two));
-        // Without one landmark that the bound needs.
-        let landmarks = stated.landmarks.clone().map(|mut landmarks| landmarks.drain(..1).collect::<Vec<_>>());
-        let served = |lower_bound, optimal| {
-            let less = Statement { lower_bound, optimal, landmarks: landmarks.clone(), ..stated.clone() };
-            confirm(&mut Checker::new(&scene), &scene, less, &Budget::unlimited())
-        };
-        let one = Some(Cost::new(1));
-        let honest = served(one, None).unwrap();
-        assert_eq!((honest.cost, honest.lower_bound, honest.optimal), (two, one, Some(false)));
-        assert!(matches!(served(two, Some(true)), Err(PlanError::Refused(_))));
+    }
+
+    fn stated(scene: &Scene) -> Statement {
+        plan(scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap().statement
+    }
+
+    fn served(scene: &Scene, stated: Statement, budget: &Budget<'_>) -> Result<Statement, PlanError> {
+        confirm(&mut Checker::new(scene), scene, stated, budget)
+    }
+
+    #[test]
+    fn what_the_search_knows_but_cannot_show_is_not_served() {
+        let scene = crossed().build("cup");
+        let whole = stated(&scene);
+        let (one, two) = (Some(Cost::new(1)), Some(Cost::new(2)));
+        assert_eq!((whole.optimal, whole.cost, whole.lower_bound), (Some(true), two, two));
+        // The search knows a bound of 2 without the landmark that would show it.
+        let member = |id: &String| scene.find(id).unwrap();
+        let landmark: Vec<ObjectIndex> = whole.landmarks.as_ref().unwrap()[0].iter().map(member).collect();
+        let derivation = Derivation::default();
+        let known = LeastSet { derivation, bound: Cost::new(2), proven: Cost::new(1), landmarks: vec![landmark] };
+        let less = served(&scene, whole.clone().bounded(&scene, &known), &Budget::unlimited()).unwrap();
+        assert_eq!((less.cost, less.lower_bound, less.optimal), (two, one, Some(false)));
+        assert_eq!(less.landmarks.as_deref(), whole.landmarks.as_ref().map(|landmarks| &landmarks[..1]));
+        let forged = Statement { landmarks: less.landmarks, ..whole };
+        assert!(matches!(served(&scene, forged, &Budget::unlimited()), Err(PlanError::Refused(_))));
+    }
+
+    #[test]
+    fn wherever_time_ends_only_what_was_confirmed_is_served() {
+        let locked = crossed().disc("far", 0.3, 0.3, 0.05).fix("north").fix("south").fix("east").fix("west");
+        let crossed = crossed().disc("far", 0.3, 0.3, 0.05);
+        let mut seen = Vec::new();
+        for (scene, places) in [
+            (crossed.clone().build("far"), true),
+            (crossed.clone().build("cup"), true),
+            (crossed.build("cup"), false),
+            (locked.build("cup"), true),
+        ] {
+            let mut whole = stated(&scene);
+            if !places {
+                let order: Vec<ObjectIndex> = ["east", "west"].map(|id| scene.find(id).unwrap()).into();
+                let bound =
+                    Statement { lower_bound: whole.lower_bound, landmarks: whole.landmarks, ..Statement::default() };
+                whole = Statement {
+                    verdict: Some(Verdict::NoSpace),
+                    needed: Some(ids(&scene, &order)),
+                    ..Statement::timed_out()
+                };
+                (whole.lower_bound, whole.landmarks) = (bound.lower_bound, bound.landmarks);
+            }
+            let mut late = 0;
+            for looks in 0..60 {
+                let clock = Looks::ending_after(looks);
+                let part = served(&scene, whole.clone(), &clock.budget()).unwrap();
+                assert!([whole.verdict, Some(Verdict::TimedOut)].contains(&part.verdict), "{part:?}");
+                let report = Checker::new(&scene).check(&part, &Budget::unlimited());
+                assert_eq!(report.faults, [], "{part:?}");
+                late += usize::from(part != whole);
+            }
+            assert_eq!(served(&scene, whole.clone(), &Budget::unlimited()).unwrap(), whole);
+            seen.push((whole.verdict, late > 0));
+        }
+        // A target that is graspable has nothing to prove, and a replay may run over.
+        let names = [Verdict::Graspable, Verdict::Relocate, Verdict::NoSpace, Verdict::Deadlock].map(Some);
+        assert_eq!(seen.iter().map(|(verdict, _)| *verdict).collect::<Vec<_>>(), names);
+        assert_eq!(seen.iter().map(|(_, late)| *late).collect::<Vec<_>>(), [false, true, true, true]);
     }
 }

@@ -16,9 +16,10 @@ pub use planner::plan;
 pub use settings::Settings;
 pub use survey::{SurveyEntry, SurveyVerdict, survey};
 
-// What the paper's own planner shares with this one.
+// What the paper's own planner shares with this one: the parts of the main loop.
 pub(crate) use answer::timed;
 pub(crate) use confirm::confirmed_part;
 pub(crate) use couple::{Question, arrange_least, arrange_one};
 pub(crate) use planner::{PLACEMENT_SHARE, SEARCH_SHARE, placed};
 pub(crate) use reasons::{graspable_now, prove_deadlock};
+pub(crate) use stated::ids;

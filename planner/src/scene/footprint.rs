@@ -1,6 +1,4 @@
 //! What an object covers of the table: its shape, and where that stands.
-//!
-//! Only this file, and the few that match on [`Shape`], know what shapes there are.
 
 use nalgebra::Point2;
 
@@ -100,7 +98,7 @@ impl Footprint {
     }
 
     /// The corners of its bounding box: left below, right above.
-    pub fn bounds(&self) -> [Point2<f64>; 2] {
+    pub fn bounding_box(&self) -> [Point2<f64>; 2] {
         let (at, radius) = (self.at(), self.circumradius());
         [Point2::new(at.x - radius, at.y - radius), Point2::new(at.x + radius, at.y + radius)]
     }
@@ -108,10 +106,7 @@ impl Footprint {
     /// True if its edge is nearer to `point` than `reach`, m.
     pub fn comes_within(&self, point: Point2<f64>, reach: f64) -> bool {
         match self.shape {
-            Shape::Disc { radius } => {
-                let (apart, far) = (self.at() - point, reach + radius);
-                apart.norm_squared() < far * far
-            }
+            Shape::Disc { radius } => distance(self.at(), point) < reach + radius,
         }
     }
 

@@ -21,7 +21,7 @@ impl FootprintIndex {
     /// Index `footprints`; the n-th is [`ObjectIndex`] n.
     pub fn new(footprints: impl IntoIterator<Item = Footprint>) -> Self {
         let entries = footprints.into_iter().enumerate().map(|(position, footprint)| {
-            let [min, max] = footprint.bounds();
+            let [min, max] = footprint.bounding_box();
             let bounds = Rectangle::from_corners([min.x, min.y], [max.x, max.y]);
             GeomWithData::new(bounds, (ObjectIndex::new(position), footprint))
         });
@@ -54,10 +54,10 @@ mod tests {
         let index = FootprintIndex::new(discs.iter().copied());
         for n in 0..50_u32 {
             let centre = Point2::new(f64::from(n) / 25.0 - 1.0, f64::from(n * 7 % 50) / 25.0);
-            let mut found: Vec<_> = index.within(centre, 0.1003).map(|(object, _)| object).collect();
+            let mut found: Vec<_> = index.within(centre, 0.1).map(|(object, _)| object).collect();
             found.sort_unstable();
             let scan =
-                discs.iter().enumerate().filter(|(_, disc)| distance(disc.at(), centre) - disc.circumradius() < 0.1003);
+                discs.iter().enumerate().filter(|(_, disc)| distance(disc.at(), centre) - disc.circumradius() < 0.1);
             assert_eq!(found, scan.map(|(i, _)| ObjectIndex::new(i)).collect::<Vec<_>>());
         }
     }

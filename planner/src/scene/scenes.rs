@@ -3,6 +3,7 @@
 use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
 
 /// The builder. By default: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
+#[derive(Clone)]
 pub(crate) struct TestScene(SceneDraft);
 
 fn rectangle([x_min, y_min, x_max, y_max]: [f64; 4]) -> RectangleDraft {
@@ -38,6 +39,13 @@ impl TestScene {
 
     pub(crate) fn yaw_tolerance(mut self, tolerance: f64) -> Self {
         self.0.gripper.yaw_tolerance = Some(tolerance);
+        self
+    }
+
+    /// The object `id` can't be moved.
+    pub(crate) fn fix(mut self, id: &str) -> Self {
+        let object = self.0.objects.iter_mut().find(|object| object.id.as_deref() == Some(id));
+        object.expect("an object of the scene").fixed = true;
         self
     }
 

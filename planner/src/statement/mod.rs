@@ -45,7 +45,7 @@ pub enum Verdict {
     TimedOut,
 }
 
-/// Two locks, the proof of a deadlock. They hold against pick-and-place: no member can be picked while the others stand.
+/// Two locks, the proof of a deadlock. They hold against pick-and-place: no movable member can be picked while the others stand.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Deadlock {
     /// The ids of the greatest lock, with fixed objects that block a member.
@@ -78,6 +78,9 @@ impl Statement {
 }
 
 impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Graspable, Self::Relocate, Self::Deadlock, Self::NoSpace, Self::TimedOut];
+
     /// Its name in answers and logs.
     pub fn as_str(self) -> &'static str {
         match self {

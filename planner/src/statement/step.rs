@@ -44,10 +44,24 @@ impl Step {
         }
     }
 
-    /// Where the step leaves the object on the table.
-    pub fn rests_at(&self) -> Pose {
+    /// Where the step leaves the object; `None` if not on the table.
+    pub fn rests_at(&self) -> Option<Pose> {
         match self {
-            Self::PickPlace(step) => step.to,
+            Self::PickPlace(step) => Some(step.to),
+        }
+    }
+
+    /// The step, if it is a pick-and-place.
+    pub fn pick_place(&self) -> Option<&PickPlace> {
+        match self {
+            Self::PickPlace(step) => Some(step),
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn pick_place_mut(&mut self) -> Option<&mut PickPlace> {
+        match self {
+            Self::PickPlace(step) => Some(step),
         }
     }
 
@@ -58,7 +72,7 @@ impl Step {
         }
     }
 
-    /// What the step adds to the cost of a plan.
+    /// What the step adds to the cost of a plan: at least one, since a bound counts the objects that have to move.
     pub fn cost(&self) -> Cost {
         match self {
             Self::PickPlace(_) => Cost::new(1),

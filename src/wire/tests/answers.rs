@@ -107,7 +107,7 @@ fn an_answer_that_is_served_with_from_and_to_swapped_fails_its_check() {
     let planned = plan_by(&request.methods, &request.scene, &request.settings, &budget, SILENT).unwrap();
     assert!(check(&request.scene, planned.statement(), &budget).faults.is_empty());
     let mut swapped = planned;
-    for Step::PickPlace(step) in swapped.answer.statement.relocations.iter_mut().flatten() {
+    for step in swapped.answer.statement.relocations.iter_mut().flatten().filter_map(Step::pick_place_mut) {
         let from = step.from.replace(step.to).unwrap();
         step.to = from;
     }

@@ -45,7 +45,7 @@ fn two_dependent_steps_swapped_are_seen() {
     mutant(
         |stated| {
             steps(stated).swap(0, 1);
-            steps(stated).iter_mut().for_each(|Step::PickPlace(step)| step.gap = None);
+            steps(stated).iter_mut().filter_map(Step::pick_place_mut).for_each(|step| step.gap = None);
         },
         &[GraspBlocked],
     );

@@ -50,7 +50,7 @@ fn the_whole_band_of_the_yaw_tolerance_must_be_free() {
     // The target's yaw may be off by 0.81 rad, `cap`'s by 0.168.
     assert_valid(&scene(0.1), &stated);
     expect(&scene(0.15), &stated, &[WrongSlack]);
-    for Step::PickPlace(step) in stated.relocations.as_mut().unwrap() {
+    for step in stated.relocations.iter_mut().flatten().filter_map(Step::pick_place_mut) {
         (step.grasp.slack, step.release.slack) = (None, None);
     }
     assert_valid(&scene(0.15), &stated);

@@ -91,8 +91,7 @@ fn pick_place(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> P
 
 /// One step of a plan, to make something of it wrong.
 pub(crate) fn step_mut(stated: &mut Statement, at: usize) -> &mut PickPlace {
-    let Step::PickPlace(step) = &mut stated.relocations.as_mut().expect("a plan with steps")[at];
-    step
+    stated.relocations.as_mut().expect("a plan with steps")[at].pick_place_mut().expect("a pick-and-place")
 }
 
 pub(crate) fn ids(names: &[&str]) -> Vec<String> {

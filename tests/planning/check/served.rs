@@ -26,7 +26,7 @@ fn shortened(scene: &Scene, stated: &Statement) {
     for at in 0..steps.len() {
         let mut steps = steps.clone();
         steps.remove(at);
-        steps.iter_mut().for_each(|Step::PickPlace(step)| step.gap = None);
+        steps.iter_mut().filter_map(Step::pick_place_mut).for_each(|step| step.gap = None);
         let shorter = Statement { relocations: Some(steps), target_grasp: stated.target_grasp, ..Statement::default() };
         let faults = codes(&judge(scene, &shorter));
         assert!(!faults.is_empty(), "step {at} is needless: {stated:?}");
