@@ -11,10 +11,10 @@ pub(super) struct Fork {
     counted: usize,
     /// The members in its families.
     pub(super) size: usize,
-    way: Way,
+    kind: Kind,
 }
 
-enum Way {
+enum Kind {
     Components(Components),
     Choice(Choice),
 }
@@ -56,77 +56,77 @@ impl Fork {
         let bounds: Vec<usize> = components.iter().map(Family::packing).collect();
         let size = components.iter().map(Family::size).sum();
         let (families, rest) = (components.into_iter().map(Some).collect(), bounds.iter().sum());
-        Self { limit, counted, size, way: Way::Components(Components { families, bounds, rest, at: 0 }) }
+        Self { limit, counted, size, kind: Kind::Components(Components { families, bounds, rest, at: 0 }) }
     }
 
     /// `bound` is a lower bound of the component.
     pub(super) fn choice(component: Family, element: usize, bound: usize, counted: usize, limit: usize) -> Self {
         let (best, size) = (limit - counted, component.size());
         let choice = Choice { component: Some(component), element, bound, best, refused: false };
-        Self { limit, counted, size, way: Way::Choice(choice) }
+        Self { limit, counted, size, kind: Kind::Choice(choice) }
     }
 
     /// The first action.
     pub(super) fn begin(&mut self) -> Next {
-        match &mut self.way {
-            Way::Components(components) => components.go_on(self.counted, self.limit),
-            Way::Choice(choice) => Next::Ask { limit: choice.best - 1 },
+        match &mut self.kind {
+            Kind::Components(components) => components.go_on(self.counted, self.limit),
+            Kind::Choice(choice) => Next::Ask { limit: choice.best - 1 },
         }
     }
 
     /// The next action, given the answer to the last question.
     pub(super) fn next(&mut self, least: usize) -> Next {
-        match &mut self.way {
-            Way::Components(components) => {
+        match &mut self.kind {
+            Kind::Components(components) => {
                 self.counted += least;
                 components.at += 1;
                 components.go_on(self.counted, self.limit)
             }
-            Way::Choice(choice) => choice.next(least, self.counted),
+            Kind::Choice(choice) => choice.next(least, self.counted),
         }
     }
 
     /// The family to ask about; `None` if it was forgotten.
     pub(super) fn family(&mut self) -> Option<Family> {
-        match &mut self.way {
-            Way::Components(components) => {
+        match &mut self.kind {
+            Kind::Components(components) => {
                 let family = components.families[components.at].take()?;
                 self.size -= family.size();
                 Some(family)
             }
             // Each set of a component has at least two members, so none becomes empty.
-            Way::Choice(choice) if choice.refused => {
+            Kind::Choice(choice) if choice.refused => {
                 self.size = 0;
                 choice.component.take()?.after(&[], &[choice.element])
             }
-            Way::Choice(choice) => choice.component.as_ref()?.after(&[choice.element], &[]),
+            Kind::Choice(choice) => choice.component.as_ref()?.after(&[choice.element], &[]),
         }
     }
 
     /// True if the families are fully reduced.
     pub(super) fn is_reduced(&self) -> bool {
-        matches!(self.way, Way::Components(_))
+        matches!(self.kind, Kind::Components(_))
     }
 
     /// Drops the families.
     pub(super) fn forget(&mut self) {
         self.size = 0;
-        match &mut self.way {
-            Way::Components(components) => components.families.fill_with(|| None),
-            Way::Choice(choice) => choice.component = None,
+        match &mut self.kind {
+            Kind::Components(components) => components.families.fill_with(|| None),
+            Kind::Choice(choice) => choice.component = None,
         }
     }
 
     /// Takes over the families of `again`, which is the same fork, computed again.
     pub(super) fn recall(&mut self, again: Self) {
         self.size = again.size;
-        match (&mut self.way, again.way) {
-            (Way::Components(components), Way::Components(again)) => {
+        match (&mut self.kind, again.way) {
+            (Kind::Components(components), Kind::Components(again)) => {
                 components.families = again.families;
                 let done = components.families[..components.at].iter_mut().filter_map(Option::take);
                 self.size -= done.map(|family| family.size()).sum::<usize>();
             }
-            (Way::Choice(choice), Way::Choice(again)) => choice.component = again.component,
+            (Kind::Choice(choice), Kind::Choice(again)) => choice.component = again.component,
             _ => unreachable!("the same question forks the same way"),
         }
     }

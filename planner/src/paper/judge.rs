@@ -4,8 +4,8 @@
 //! finger's base, to prove the bound or the deadlock. If time runs out, fewer warnings result.
 
 use super::angles::tangent_angles;
+use super::dispatch::{SearchLimits, Sought, seek};
 use super::methods::{GraspModelName, Methods, SearchMethod};
-use super::search::{SearchLimits, Sought, seek};
 use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, Locks, NoBase, SweptFinger, relevant};

@@ -12,6 +12,7 @@
 
 mod angles;
 mod conclusion;
+mod dispatch;
 mod dnf;
 mod forward_astar;
 mod histogram;
@@ -20,18 +21,17 @@ mod lobs;
 mod methods;
 mod planner;
 mod raster;
-mod search;
 mod sector;
 mod warning;
 
 pub use angles::tangent_angles;
 pub use conclusion::Conclusion;
+pub use dispatch::{SearchLimits, Sought, seek};
 pub use forward_astar::forward_astar;
 pub use histogram::{PolarHistogram, histograms};
 pub use lobs::lobs;
 pub use methods::{GraspModelName, Methods, PlacementMethod, SearchMethod};
 pub use planner::{Judged, plan_by};
 pub use raster::{DEFAULT_RESOLUTION, Raster, TooFine, reposition};
-pub use search::{SearchLimits, Sought, seek};
 pub use sector::Sector;
 pub use warning::{Cause, Warning};

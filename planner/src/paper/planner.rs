@@ -1,9 +1,9 @@
 //! Plans by the methods that a request names: runs them, has them judged by our own, and checks what is left.
 
+use super::dispatch::{SearchLimits, Sought, base, seek};
 use super::judge::{Found, judge};
 use super::methods::{GraspModelName, Methods, PlacementMethod};
 use super::raster::reposition;
-use super::search::{SearchLimits, Sought, base, seek};
 use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
 use crate::check::{Checker, Fault, FaultCode, MAX_FAULTS};
