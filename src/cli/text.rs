@@ -18,9 +18,13 @@ const MANY: usize = 40;
 /// Added to `no_space`.
 const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
 
-/// The text with control characters made visible: an id must not move the cursor or forge a line.
+/// The text with control characters made visible: an id must not move the cursor, forge a line, or turn it round.
 pub(super) fn plain(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
+    let line_or_direction =
+        |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let shown =
+        |c: char| if c.is_control() || line_or_direction(c) { c.escape_default().to_string() } else { c.to_string() };
+    text.chars().map(shown).collect()
 }
 
 /// The answer to a planning request.

@@ -120,7 +120,7 @@ impl Fork {
     /// Takes over the families of `again`, which is the same fork, computed again.
     pub(super) fn recall(&mut self, again: Self) {
         self.size = again.size;
-        match (&mut self.kind, again.way) {
+        match (&mut self.kind, again.kind) {
             (Kind::Components(components), Kind::Components(again)) => {
                 components.families = again.families;
                 let done = components.families[..components.at].iter_mut().filter_map(Option::take);

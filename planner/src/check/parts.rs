@@ -21,7 +21,8 @@ fn cost(statement: &Statement) -> Option<Cost> {
 /// The parts that belong to the verdict are there, and no others.
 pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
     let moves = !statement.steps().is_empty();
-    let plan = [("relocations", moves), ("target_grasp", statement.target_grasp.is_some())];
+    let cost = ("cost", statement.cost.is_some());
+    let plan = [("relocations", moves), ("target_grasp", statement.target_grasp.is_some()), cost];
     let deadlock = ("deadlock", statement.deadlock.is_some());
     let needed = ("needed", statement.needed.is_some());
     let mut unexpected = |parts: &[(&str, bool)]| {
@@ -41,7 +42,7 @@ pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
             unexpected(&plan);
             unexpected(&[needed]);
         }
-        None if statement.deadlock.is_some() => unexpected(&plan),
+        None if statement.deadlock.is_some() => unexpected(&plan[..2]),
         None => {}
     }
     if statement.verdict == Some(Verdict::Deadlock) && statement.deadlock.is_none() {

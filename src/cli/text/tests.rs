@@ -179,3 +179,8 @@ fn a_verification_lists_its_faults_with_steps_counted_from_one() {
     assert_eq!(text(vec![fault]), expected);
     assert_eq!(text(Vec::new()), "valid: the plan holds\n");
 }
+
+#[test]
+fn an_id_neither_forges_a_line_nor_turns_it_round() {
+    assert_eq!(plain("a\u{1b}b\u{202e}c\u{2028}d é"), "a\\u{1b}b\\u{202e}c\\u{2028}d é");
+}

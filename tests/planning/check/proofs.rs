@@ -124,6 +124,8 @@ fn a_deadlock_comes_without_a_plan() {
     assert!(codes(&report).contains(&UnexpectedPart), "{:#?}", report.faults);
     let silent = Statement { verdict: None, target_grasp: Some(grasp(0.0, 0.0)), ..deadlock(&LOCK, &LOCK) };
     expect(&locked(), &silent, &[UnexpectedPart, TargetBlocked]);
+    let dear = Statement { cost: Some(Cost::new(3)), ..deadlock(&LOCK, &LOCK) };
+    expect(&locked(), &dear, &[UnexpectedPart]);
 }
 
 #[test]
