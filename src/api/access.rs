@@ -160,13 +160,14 @@ impl NotAdmitted {
             Self::NoKey => {
                 Problem::new(ProblemKind::Unauthorized, "send the header Authorization: Bearer and your key")
             }
-            Self::WrongKey => Problem::new(ProblemKind::Unauthorized, "there is no such key, or no longer"),
+            Self::WrongKey => Problem::new(ProblemKind::Unauthorized, "the key is unknown or no longer valid"),
             Self::Scope(scopes) => {
                 let words: Vec<&str> = scopes.iter().map(|scope| scope.as_str()).collect();
                 Problem::new(ProblemKind::Forbidden, format!("this needs a key for {}", words.join(" or ")))
             }
             Self::Rate(after) => {
-                let problem = Problem::new(ProblemKind::RateExceeded, "the key was used more often than it may be");
+                let problem =
+                    Problem::new(ProblemKind::RateExceeded, "the key was used more often than its rate allows");
                 problem.with_retry_after(*after)
             }
         }

@@ -88,7 +88,8 @@ fn describe_need(need: Need, item: &mut PathItem) {
             let mut response = described(&example, description);
             if example.kind() == ProblemKind::Unauthorized {
                 let text = ObjectBuilder::new().schema_type(Type::String).build();
-                let header = HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and the reason (RFC 6750)."));
+                let header =
+                    HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and the reason (RFC 6750)."));
                 response.headers.insert("WWW-Authenticate".to_owned(), header.build().into());
             }
             operation.responses.responses.insert(example.status().to_string(), response.into());

@@ -143,7 +143,8 @@ pub(super) fn described(example: &Problem, description: &str) -> openapi::Respon
         return response.build();
     }
     let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();
-    let retry_after = HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait before the next try.")).build();
+    let retry_after =
+        HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait before the next try.")).build();
     response.header("Retry-After", retry_after).build()
 }
 

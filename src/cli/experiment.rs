@@ -31,7 +31,7 @@ enum Table {
     Table1 {
         #[command(flatten)]
         common: Common,
-        /// Episodes that the baseline is given, which may take the whole time limit for each [default: episodes, at most 20]
+        /// Episodes for the baseline, which may take the whole time limit for each [default: episodes, at most 20]
         #[arg(long, value_name = "N")]
         base_episodes: Option<usize>,
     },
@@ -51,10 +51,10 @@ struct Common {
     /// The same seed gives the same scenes, on any machine
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// For each search and each plan, ms
+    /// Time limit of each search and each plan, ms
     #[arg(long, value_name = "MS", default_value_t = 60_000, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit_ms: u64,
-    /// Episodes at a time; for each the baseline may hold 5,000,000 sets of objects [default: one per core]
+    /// Episodes run at a time; in each the baseline may hold 5,000,000 sets of objects [default: one per core]
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     jobs: Option<usize>,
     /// json: for programs; text: for people

@@ -9,13 +9,13 @@ use singulate_planner::paper::{GraspModelName, SearchMethod};
 
 /// The figures that can't be reproduced exactly.
 pub(super) const NOT_THE_SAME: &str = "\
-What can't be as it was for the paper's own figures: its machine; its scenes, which it only says
-are random. Algorithm 1 as printed counts the target; here it isn't counted: add 1 to compare. Its
-baseline and its LOBS can't have seen the same scenes: for N=16 the one finds sequences in 95 % of
-them, the other calls 20 % a deadlock. Our baseline knows a set of objects again that it reached in
-another order; of that the paper says nothing. For places the paper names no resolution (here 5 mm)
-and leaves open how its θ_g is measured (here by the lens of two equal circles) and how far from
-objects that are still to be moved a place must be (here r_g).";
+Differences from the paper's own experiments. The machine is another one. The scenes differ, since
+the paper only says that they are random. Algorithm 1 as printed counts the target. Here it isn't
+counted: add 1 to compare. The paper's baseline and its LOBS can't have seen the same scenes: for
+N=16 one finds sequences in 95 % of them, the other calls 20 % a deadlock. Our baseline recognises a
+set of objects that it reached before in another order; the paper does not mention this. For places
+the paper names no resolution (here 5 mm). It leaves open how its θ_g is measured (here by the lens
+of two equal circles) and how far a place must be from objects that are still to be moved (here r_g).";
 
 /// Columns of text are left-aligned, those of numbers right-aligned.
 const WORDS: [&str; 5] = ["model", "method", "places", "scenes", "faults"];

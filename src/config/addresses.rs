@@ -65,7 +65,7 @@ pub(super) fn jobs_url(text: &str) -> Result<String, String> {
                 "an address that begins with '{scheme}:' is neither sqlite:PATH nor postgres://HOST/DATABASE{meant}"
             )
         }
-        None if is_path(text) => format!("'{text}' says no kind of store; did you mean sqlite:{text}?"),
+        None if is_path(text) => format!("'{text}' names no kind of store; did you mean sqlite:{text}?"),
         None => "an address begins with sqlite: or postgres://".to_owned(),
     })
 }

@@ -17,7 +17,7 @@ impl End {
     /// The end of a job that has lost as many workers as allowed.
     pub(super) fn poisoned() -> Self {
         let detail =
-            format!("{MAX_ATTEMPTS} workers began this job and were not heard of again; it is not begun once more");
+            format!("{MAX_ATTEMPTS} workers have been lost while they planned this job; it is not begun again");
         Self::with(&Problem::new(ProblemKind::Poison, detail))
     }
 

@@ -109,7 +109,7 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
         return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
     }
     if name == ANONYMOUS {
-        return Err(format!("the name {ANONYMOUS} belongs to those who came without a key"));
+        return Err(format!("the name {ANONYMOUS} is reserved for calls without a key"));
     }
     if name.starts_with(PREFIX) {
         return Err("this is a key, not a name".to_owned());

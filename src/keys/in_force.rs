@@ -82,7 +82,7 @@ impl Keys {
             let read = spawn_blocking(move || read(&text)).await;
             let read = read.unwrap_or_else(|_| Err(vec!["the file could not be read".to_owned()]));
             if let Err(faults) = self.take_over(read) {
-                tracing::error!(%faults, "the keys of before still hold");
+                tracing::error!(%faults, "the keys file is faulty; the previous keys stay in use");
             }
         }
     }

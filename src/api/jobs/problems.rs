@@ -47,7 +47,7 @@ fn unanswered() -> Problem {
 
 /// There is no such job.
 pub(super) fn no_such_job() -> Problem {
-    let detail = "there is no job of this name, or no longer";
+    let detail = "there is no job with this id, or it is no longer kept";
     Problem::new(ProblemKind::NotFound, detail).with_title("There is no such job")
 }
 
