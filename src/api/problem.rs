@@ -154,7 +154,7 @@ mod tests {
     use crate::workers::Refused;
 
     #[test]
-    fn who_is_refused_comes_again_after_whole_seconds_neither_at_once_nor_never() {
+    fn retry_after_is_whole_seconds_from_1_to_60() {
         let seconds = |millis| seconds(&Refused::TooLate { retry_after: Duration::from_millis(millis) }.into());
         assert_eq!([0, 10, 1000, 1001, 59_001, 1_000_000].map(seconds), [1, 1, 1, 2, 60, 60]);
         assert_eq!(super::seconds(&Refused::Full.into()), 1);

@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_be_a_key_is_left_out_of_a_text() {
+    fn text_that_may_be_a_key_is_cut_from_a_path() {
         let key = "sgl_47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU";
         for (text, kept) in [
             ("/v1/plans", "/v1/plans"),

@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_list_replaces_the_old_one_and_what_was_used_stays_used() {
+    fn a_new_list_replaces_the_old_one_but_keeps_the_used_rates() {
         let [stays, faster, goes, changes] = ["1", "1", "1", "1"].map(|rate| fresh("a", "plan", rate));
         let keys = keys("replaced", &[&stays, &faster, &goes, &changes]);
         let find = |key: &FreshKey| keys.find(key.text().as_bytes());

@@ -226,7 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_written_once_is_served_as_it_is() {
+    fn a_kept_answer_is_served_byte_for_byte() {
         let text = r#"{"b": [1.50, "ü\n"],  "a": null}"#;
         let kept = text.parse::<RawJson>().unwrap();
         let served = serde_json::to_string(&[Some(&kept), None, Some(&kept.clone())]).unwrap();
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn clones_share_what_was_written() {
+    fn clones_of_a_kept_answer_share_its_bytes() {
         let kept: RawJson = "{}".parse().unwrap();
         assert!(Arc::ptr_eq(&kept.0, &kept.clone().0));
     }

@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn who_comes_late_neither_waits_for_all_nor_goes_before_who_is_next() {
+    fn a_new_owner_joins_after_the_next_in_line() {
         let mut queue = pushed(&["a1", "a2", "a3"]);
         assert_eq!(queue.pop(), Some("a1"));
         queue.push("b", "b1");
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_ahead_depends_on_the_owner() {
+    fn the_work_ahead_depends_on_the_owner() {
         let mut queue = pushed(&["a1", "a2", "b1"]);
         let ahead = |queue: &Queue<&'static str>, owner| queue.ahead_of(owner).copied().collect::<Vec<_>>().join(" ");
         assert_eq!(ahead(&queue, "a"), "a1 b1 a2");

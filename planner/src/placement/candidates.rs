@@ -275,7 +275,7 @@ mod tests {
     use crate::scene::scenes::TestScene;
 
     #[test]
-    fn of_places_of_one_score_as_many_stay_as_may() {
+    fn places_beyond_the_limit_are_forgotten_even_with_equal_scores() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
         let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };

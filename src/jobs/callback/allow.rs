@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_told_unless_listed() {
+    fn an_empty_allow_list_forbids_every_callback() {
         let nobody = CallbackAllow::default();
         assert_eq!(nobody.check("https://erp.example.com/"), Err(CallbackFault::Off));
         assert_eq!((allow("none"), nobody.to_string().as_str()), (nobody, "none"));

@@ -71,7 +71,7 @@ fn an_object_without_a_name_that_can_be_shown_is_told_by_its_pointer() {
 }
 
 #[test]
-fn what_other_languages_allow_is_named() {
+fn syntax_of_other_languages_is_named() {
     let comment = |place| format!("a comment stands at {place}; JSON has no comments");
     says("// a scene\n{}", &comment("line 1 column 1"));
     says("{\n  # a scene\n}", &comment("line 2 column 3"));
@@ -102,7 +102,7 @@ fn digits_that_are_no_number_hide_no_slip_behind_them() {
 }
 
 #[test]
-fn what_is_no_utf_8_is_named() {
+fn a_body_that_is_not_utf_8_is_named() {
     let wide = |bytes: fn(u16) -> [u8; 2], mark: bool| -> Vec<u8> {
         let mark = mark.then_some(0xfeff);
         mark.into_iter().chain(SCENE.encode_utf16()).flat_map(bytes).collect()
@@ -123,7 +123,7 @@ fn what_is_no_utf_8_is_named() {
 }
 
 #[test]
-fn for_anything_else_the_words_of_the_json_library_do() {
+fn any_other_syntax_error_has_the_json_librarys_message() {
     says("{\n \"table\": }", "expected value at line 2 column 11");
     says("{\"a\": 1 \"b\": 2}", "expected `,` or `}` at line 1 column 9");
     says("{} {}", "trailing characters at line 1 column 4");

@@ -74,7 +74,7 @@ async fn a_certificate_of_a_stranger_gets_no_connection() {
 }
 
 #[tokio::test]
-async fn clients_of_an_authority_that_is_listed_no_more_are_shut_out_though_they_were_here_before() {
+async fn clients_of_a_removed_authority_are_shut_out_on_open_connections() {
     let authority = Authority::new("listed");
     let (old, new) = (Authority::new("listed-old"), Authority::new("listed-new"));
     let host = host_for(&authority, &[&old, &new]).await;
