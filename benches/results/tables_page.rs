@@ -1,6 +1,6 @@
 //! The paper's tables beside ours.
 
-use singulate::experiments::Interval;
+use singulate::experiments::ConfidenceInterval;
 
 use crate::markdown::{digits, or_dash, percent, row, table, time};
 use crate::tables::{Column1, Method, Plans, Table1, Table2};
@@ -214,7 +214,7 @@ pub(crate) fn table2(figures: &Table2) -> String {
 /// A rate with its interval.
 fn share(part: f64, whole: f64) -> String {
     // Counts of episodes.
-    let Interval { low, high } = Interval::wilson(part as usize, whole as usize);
+    let ConfidenceInterval { low, high } = ConfidenceInterval::wilson(part as usize, whole as usize);
     interval((whole > 0.0).then(|| part / whole), [low, high])
 }
 

@@ -18,7 +18,7 @@ use tracing::Span;
 use super::problem::CHALLENGE;
 use crate::computation::internal;
 use crate::jobs::Owner;
-use crate::keys::{Found, Keys, KeysError, Scope};
+use crate::keys::{FoundKey, Keys, KeysError, Scope};
 use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
@@ -38,7 +38,7 @@ pub(super) enum Need {
 pub(super) struct Caller {
     /// The owner of the caller's jobs, for fair queuing too.
     pub(super) owner: Owner,
-    key: Option<Found>,
+    key: Option<FoundKey>,
 }
 
 impl Caller {

@@ -2,8 +2,8 @@
 
 use super::table::{Column, table};
 use crate::experiments::{
-    ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Repositioning,
-    Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
+    ConfidenceInterval, ExperimentSettings, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed,
+    Repositioning, Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
 };
 use singulate_planner::paper::{GraspModelName, SearchMethod};
 
@@ -250,7 +250,7 @@ fn percent(part: usize, whole: usize) -> String {
 
 /// The 95 % interval of a rate in percent.
 fn sureness(part: usize, whole: usize) -> String {
-    let interval = (whole > 0).then(|| Interval::wilson(part, whole));
+    let interval = (whole > 0).then(|| ConfidenceInterval::wilson(part, whole));
     or_dash(interval, |interval| format!("{:.1}-{:.1}", 100.0 * interval.low, 100.0 * interval.high))
 }
 

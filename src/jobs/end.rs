@@ -2,7 +2,7 @@
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
-use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson};
+use crate::wire::{AnswerBody, LoggedProblem, Problem, ProblemKind, RawJson};
 
 /// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl End {
 pub(super) struct Concluded {
     pub(super) end: End,
     pub(super) verdict: Option<&'static str>,
-    pub(super) cause: Option<Cause>,
+    pub(super) cause: Option<LoggedProblem>,
 }
 
 impl Concluded {

@@ -26,14 +26,14 @@ struct Body<'a> {
     #[serde(borrow, default)]
     target: Option<Cow<'a, str>>,
     #[serde(default)]
-    settings: Option<Settings>,
+    settings: Option<GlancedSettings>,
     /// The scene of a verification, which is nested.
     #[serde(borrow, default)]
     scene: Option<Box<Body<'a>>>,
 }
 
 #[derive(Default, Deserialize)]
-struct Settings {
+struct GlancedSettings {
     #[serde(default)]
     time_limit_ms: Option<f64>,
 }

@@ -5,7 +5,7 @@ use core::fmt;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::code::ErrorCode;
-use super::path::MAX_FAULTS;
+use super::path::MAX_ERRORS;
 use super::problem::{ErrorItem, Problem, ProblemKind};
 use super::walk::{NoNumber, Slip, Walk};
 
@@ -39,7 +39,7 @@ fn faults(body: &[u8], found: Walk<'_>) -> Vec<ErrorItem> {
     let mut faults: Vec<ErrorItem> =
         found.no_numbers.iter().map(|no_number| of_no_number(no_number, places.at(no_number.at))).collect();
     faults.extend(found.slip.map(|(slip, at)| no_json("", format_args!("{}", sentence(&slip, places.at(at))))));
-    faults.truncate(MAX_FAULTS);
+    faults.truncate(MAX_ERRORS);
     if !faults.is_empty() {
         return faults;
     }

@@ -176,7 +176,7 @@ impl fmt::Display for ProblemKind {
 
 /// A problem for a log line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cause {
+pub struct LoggedProblem {
     /// The kind of problem.
     pub problem: ProblemKind,
     /// The kind of the first fault, if the body has any.
@@ -262,8 +262,8 @@ impl Problem {
     }
 
     /// For a log line.
-    pub fn cause(&self) -> Cause {
-        Cause { problem: self.kind, code: self.errors.first().map(|error| error.code) }
+    pub fn cause(&self) -> LoggedProblem {
+        LoggedProblem { problem: self.kind, code: self.errors.first().map(|error| error.code) }
     }
 
     /// The status code.

@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 /// The queue. Items of one turn go in order of arrival.
 #[derive(Debug)]
 pub(super) struct Queue<T> {
-    entries: BTreeMap<(u64, u64), Entry<T>>,
+    entries: BTreeMap<(u64, u64), QueuedItem<T>>,
     arrivals: u64,
 }
 
 #[derive(Debug)]
-struct Entry<T> {
+struct QueuedItem<T> {
     owner: Box<str>,
     item: T,
 }
@@ -31,7 +31,7 @@ impl<T> Queue<T> {
     pub(super) fn push(&mut self, owner: &str, item: T) {
         let place = (self.turn(owner), self.arrivals);
         self.arrivals += 1;
-        self.entries.insert(place, Entry { owner: owner.into(), item });
+        self.entries.insert(place, QueuedItem { owner: owner.into(), item });
     }
 
     pub(super) fn pop(&mut self) -> Option<T> {

@@ -43,7 +43,7 @@ pub(super) struct Candidates {
     expanded: Vec<bool>,
     /// The same per keep-out.
     expanded_areas: Vec<bool>,
-    heap: BinaryHeap<Entry>,
+    heap: BinaryHeap<HeapEntry>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,15 +56,15 @@ enum Kind {
 /// An entry of the heap. Higher scores come first, among equals smaller coordinates, so that the order is the same on
 /// every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Entry {
+struct HeapEntry {
     score: f64,
     at: Point2<f64>,
     kind: Kind,
 }
 
-impl Eq for Entry {}
+impl Eq for HeapEntry {}
 
-impl Ord for Entry {
+impl Ord for HeapEntry {
     fn cmp(&self, other: &Self) -> Ordering {
         let key = |entry: &Self| (entry.kind != Kind::Place, entry.score);
         let ((curve, score), (other_curve, other_score)) = (key(self), key(other));
@@ -76,7 +76,7 @@ impl Ord for Entry {
     }
 }
 
-impl PartialOrd for Entry {
+impl PartialOrd for HeapEntry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -185,7 +185,7 @@ impl Candidates {
     }
 
     fn add_place(&mut self, at: Point2<f64>) {
-        self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
+        self.heap.push(HeapEntry { score: self.score(at), at, kind: Kind::Place });
     }
 
     /// The distance of the object's origin from the table's edge and from keep-outs, m.
@@ -208,7 +208,7 @@ impl Candidates {
                 }
                 Objective::ShortMoves => -(area.distance(self.origin) - keep).max(0.0),
             };
-            self.heap.push(Entry { score, at: area.min(), kind: Kind::KeepOut(at) });
+            self.heap.push(HeapEntry { score, at: area.min(), kind: Kind::KeepOut(at) });
         }
     }
 
@@ -220,7 +220,7 @@ impl Candidates {
                 Objective::FarFromTarget => border.farthest(self.origin),
                 Objective::ShortMoves => -border.nearest(self.origin),
             };
-            self.heap.push(Entry { score, at, kind: Kind::Obstacle(object) });
+            self.heap.push(HeapEntry { score, at, kind: Kind::Obstacle(object) });
         }
     }
 
@@ -280,8 +280,8 @@ mod tests {
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
         let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
         let mut candidates = Candidates::empty(&Layout::new(&scene, &SweptFinger), spec);
-        let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
-        let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
+        let place = |n: u32| HeapEntry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
+        let curve = HeapEntry { kind: Kind::Obstacle(object), ..place(0) };
         let many = u32::try_from(MANY).unwrap();
         candidates.heap.extend((0..=many).map(place).chain([curve]));
         candidates.forget_worst();

@@ -55,7 +55,7 @@ fn every_number_that_is_none_is_told_and_the_slip_behind_them_too() {
     );
     assert!(problem.errors()[2].detail.ends_with("a comment stands at line 8 column 17; JSON has no comments"));
     let many = format!("[{}0]", "NaN,".repeat(2000));
-    assert_eq!(refused(many.as_bytes()).errors().len(), path::MAX_FAULTS);
+    assert_eq!(refused(many.as_bytes()).errors().len(), path::MAX_ERRORS);
 }
 
 #[test]
