@@ -80,8 +80,8 @@ fn sweep(blockers: &[Blocker], events: &[SweepEvent], mut depth: Vec<u32>) -> Ve
     options
 }
 
-/// The shadow's arcs widened by half of `width` on each side, as (start, end) in [0, period); `end` ≤ `start` where one
-/// runs over 0. `None` if too little is left free.
+/// The shadow's arcs widened by half of `width` on each side, as (start, end) in [0, period). An arc across 0 has `end` ≤
+/// `start`. `None` if no free gap is wide enough.
 fn widened(shadow: &ArcSet, width: f64) -> Option<Vec<(f64, f64)>> {
     let period = shadow.period();
     let gaps: Vec<_> = shadow.free().filter(|gap| gap.width >= width).collect();

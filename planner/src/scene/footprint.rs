@@ -1,4 +1,4 @@
-//! What an object covers of the table: its shape, and where that stands.
+//! The footprint of an object on the table: its shape and its place.
 //!
 //! Only this file, and the few that match on [`Shape`], know what shapes there are.
 

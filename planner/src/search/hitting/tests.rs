@@ -42,7 +42,7 @@ fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// So many pseudo-random sets of 2 to 4 of so many nodes.
+/// Pseudo-random sets of 2 to 4 nodes: how many, and of how many nodes.
 fn tangle(sets: usize, nodes: Node) -> Vec<Vec<Node>> {
     let mut state = 7_u64;
     let mut below = |count: u64| {
