@@ -83,7 +83,7 @@ pub(super) fn panicked(panic: Box<dyn Any + Send + 'static>) -> Response {
 
 /// Unknown path.
 pub(super) async fn not_found() -> Problem {
-    Problem::new(ProblemKind::NotFound, "see /openapi.json for what lives here")
+    Problem::new(ProblemKind::NotFound, "/openapi.json lists the paths")
 }
 
 /// Wrong method; the router adds `Allow`.

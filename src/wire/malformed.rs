@@ -27,13 +27,13 @@ fn faults(body: &[u8], found: Walk<'_>) -> Vec<ErrorItem> {
     }
     let whole = |what: fmt::Arguments<'_>| vec![no_json("", what)];
     if let Some(encoding) = wide_encoding(body) {
-        return whole(format_args!("it is a text in {encoding}; send UTF-8"));
+        return whole(format_args!("it is encoded in {encoding}; send UTF-8"));
     }
     if body.starts_with(BYTE_ORDER_MARK) {
-        return whole(format_args!("it begins with a byte order mark; send UTF-8 without"));
+        return whole(format_args!("it begins with a byte order mark; send UTF-8 without it"));
     }
     if body.starts_with(GZIP) {
-        return whole(format_args!("it is compressed by gzip; send it as it is"));
+        return whole(format_args!("it is compressed by gzip; send it uncompressed"));
     }
     let mut places = Places::of(body);
     let mut faults: Vec<ErrorItem> =

@@ -106,11 +106,7 @@ impl<'a> Node<'a> {
         if value.is_none() {
             // Only a literal beyond the range of a double has no value.
             let literal: String = number.chars().take(40).collect();
-            faults.add(
-                ErrorCode::OutOfRange,
-                self.path,
-                format_args!("{literal} is further from 0 than any number here may be"),
-            );
+            faults.add(ErrorCode::OutOfRange, self.path, format_args!("{literal} is out of the range of every field"));
         }
         value
     }

@@ -68,7 +68,7 @@ impl FaultBody {
     }
 
     fn interrupted() -> Self {
-        Self::of_answer("interrupted", "the time limit came before everything was checked")
+        Self::of_answer("interrupted", "time ran out before everything was checked")
     }
 }
 

@@ -115,7 +115,7 @@ pub(in crate::api) async fn list(
     let parameters = parameters.only(&["state", "cursor", "limit"])?;
     let states = JobState::ALL.map(JobState::as_str).join(", ");
     let state = parameters.read("state", format_args!("one of {states}"), |text| text.parse().ok())?;
-    let before = parameters.read("cursor", "the `next_cursor` of the page before", |text| text.parse().ok())?;
+    let before = parameters.read("cursor", "the `next_cursor` of the previous page", |text| text.parse().ok())?;
     let limit = parameters.number("limit", 1..=MAX_PAGE)?.unwrap_or(DEFAULT_PAGE);
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     // One more, to see whether there is a next page.
@@ -140,7 +140,7 @@ async fn take(
     let body = calls.bodies.receive(request).await?;
     let _submitting = match timeout(SUBMIT_PATIENCE, calls.submitting.acquire()).await {
         Ok(Ok(place)) => place,
-        _ => return Err(calls.too_many("as many requests hand in jobs as may; nothing of this one was kept")),
+        _ => return Err(calls.too_many("too many requests submit jobs at a time; this one was not accepted")),
     };
     let (own, allow) = (owner.clone(), calls.callback_allow.clone());
     let new = move |body: &[u8], limits: &RequestLimits| {

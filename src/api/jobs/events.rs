@@ -60,7 +60,7 @@ pub(in crate::api) async fn events(
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
     let slot = Arc::clone(&calls.streams).try_acquire_owned();
-    let slot = slot.map_err(|_| calls.too_many("as many clients listen to jobs as may; ask for the job instead"))?;
+    let slot = slot.map_err(|_| calls.too_many("too many clients follow jobs; ask for the job instead"))?;
     let listener = Listener::new(Arc::clone(&calls.running), caller, (job, seen), slot);
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }

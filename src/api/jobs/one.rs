@@ -85,7 +85,7 @@ pub(in crate::api) async fn cancel(
     let cancelled = store.cancel(&caller.owner, id, Timestamp::now()).await;
     match cancelled.map_err(|error| calls.unavailable(&error))? {
         Cancellation::Unknown => Err(no_such_job()),
-        Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
+        Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "an ended job can't be cancelled")),
         Cancellation::Accepted(job) => {
             runner.cancel(id);
             if job.state == JobState::Cancelled {
@@ -136,7 +136,7 @@ pub(super) async fn find(calls: &JobCalls, owner: &Owner, id: JobId) -> Result<J
 async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
     let waiting = calls.waiting.try_acquire();
-    let _waiting = waiting.map_err(|_| calls.too_many("as many clients wait for jobs as may; ask without waiting"))?;
+    let _waiting = waiting.map_err(|_| calls.too_many("too many clients wait for jobs; ask without `wait_ms`"))?;
     let Running { store, draining, .. } = &*calls.running;
     let watcher = store.hints().watch(id);
     loop {

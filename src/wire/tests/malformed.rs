@@ -110,15 +110,18 @@ fn a_body_that_is_not_utf_8_is_named() {
     for bytes in [u16::to_le_bytes, u16::to_be_bytes] {
         for mark in [true, false] {
             let problem = refused(&wide(bytes, mark));
-            assert_eq!(problem.detail(), "the body is not JSON: it is a text in UTF-16; send UTF-8");
+            assert_eq!(problem.detail(), "the body is not JSON: it is encoded in UTF-16; send UTF-8");
         }
     }
     let utf_32: Vec<u8> = SCENE.chars().flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
     assert!(refused(&utf_32).detail().contains("UTF-32"));
-    says("\u{feff}{}", "it begins with a byte order mark; send UTF-8 without");
+    says("\u{feff}{}", "it begins with a byte order mark; send UTF-8 without it");
     let latin_1: Vec<u8> = SCENE.chars().map(|letter| u8::try_from(letter).unwrap()).collect();
     assert_eq!(refused(&latin_1).detail(), "the body is not JSON: the byte 0xfc at line 6 column 48 is not UTF-8");
-    assert_eq!(refused(b"\x1f\x8b\x08").detail(), "the body is not JSON: it is compressed by gzip; send it as it is");
+    assert_eq!(
+        refused(b"\x1f\x8b\x08").detail(),
+        "the body is not JSON: it is compressed by gzip; send it uncompressed"
+    );
     assert_eq!(refused(b" \r\n").detail(), "the body is empty");
 }
 

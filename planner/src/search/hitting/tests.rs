@@ -42,7 +42,7 @@ fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Pseudo-random sets of 2 to 4 nodes: how many, and of how many nodes.
+/// Pseudo-random sets, each of 2 to 4 of `nodes` nodes.
 fn tangle(sets: usize, nodes: Node) -> Vec<Vec<Node>> {
     let mut state = 7_u64;
     let mut below = |count: u64| {
