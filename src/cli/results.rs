@@ -31,11 +31,11 @@ pub(super) fn table1(settings: &ExperimentSettings, columns: &[Table1Column]) ->
         ),
         endings(columns),
         searches(columns),
-        "A search that the time limit (late) or the limit of memory (too large) ended counts as the time limit.\n\
+        "A search that ended at the time limit (late) or the memory limit (too large) counts as the time limit.\n\
          +1: with the target counted, as in the paper's next column.\n"
             .to_owned(),
         plans(columns),
-        "Planned by the swept finger, with places and check; sector's deadlocks: what the sector model alone calls one.\n"
+        "Planned by the swept finger, with places and check. sector's deadlocks: scenes that only the sector model calls one.\n"
             .to_owned(),
         conclusions(columns),
         format!("{NOT_THE_SAME}\n"),
@@ -53,11 +53,11 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
              for the\nsequences that LOBS finds by the sector model\n"
         ),
         placings(columns),
-        "Times are over the episodes in which something has to be moved: all but the graspable ones.\n".to_owned(),
+        "Times are over the episodes in which an object has to be moved: all but the graspable ones.\n".to_owned(),
         faults(columns),
-        "Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an\n\
-         obstacle when it lets go. The exact places are sought by the sector model too, which overlooks the fingers' outer\n\
-         corners: hence their faults.\n"
+        "Faulty plans are those that the checker, with the swept finger, refuses. At release: a finger meets an obstacle\n\
+         when it opens. The exact places are searched for by the sector model too. It overlooks the fingers' outer\n\
+         corners, hence their faults.\n"
             .to_owned(),
         format!("{NOT_THE_SAME}\n"),
     ]
