@@ -57,7 +57,7 @@ impl WatchedFiles {
                 Ok(Ok(_)) => fault = None,
                 // Logged once, not every second.
                 Ok(Err(error)) if fault.as_ref() != Some(&error.to_string()) => {
-                    tracing::warn!(%error, "what was read before still holds");
+                    tracing::warn!(%error, "a watched file can't be read; its last content stays in use");
                     fault = Some(error.to_string());
                 }
                 _ => {}

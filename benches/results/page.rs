@@ -12,8 +12,8 @@ use crate::{peers_page, plots, table_plots, tables_page};
 
 const HEAD: &str = "# Results\n\n\
     `cargo bench --bench results` writes this page and its pictures from the files in [`results/`](results/): every \
-    figure here is one of theirs. They were measured on a shared machine with 2 cores; what is compared with each other \
-    was measured in the same run, but for the paper's own figures.\n\n";
+    figure here comes from them. They were measured on a shared machine with 2 cores. Figures that are compared with each \
+    other come from the same run, except for the paper's own.\n\n";
 
 /// Every file that is made, with its path below the crate's root and its text.
 pub(crate) fn files() -> Vec<(&'static str, String)> {

@@ -13,20 +13,20 @@ pub(crate) fn section(peers: &Peers) -> String {
     let asked: usize = peers.classes().iter().map(|(_, instances)| instances.len()).sum();
     format!(
         "## Ours against other solvers\n\n\
-         {asked} knowledge bases with a target, and {} of 10,000 objects without, the same for all: our exact search, \
-         {versions}. What each is given, how it is timed and what the classes are: \
-         [`benches/peers/README.md`](../benches/peers/README.md). Times from the base in memory to the proven optimum, \
-         median / worst; `>` is the time limit, with the number of instances that a solver left unsolved in brackets. {} \
+         {asked} knowledge bases with a target, and {} of 10,000 objects without a target, are the same for all solvers: our \
+         exact search, {versions}. [`benches/peers/README.md`](../benches/peers/README.md) describes the encodings, the \
+         timing and the classes. Times are from the base in memory to the proven optimum, median / worst. `>` marks the \
+         time limit. The number of unsolved instances is in brackets. {} \
          The ratio is the fastest peer's time over ours on the same instance.\n\n\
          ![Each instance's time, per class and solver](results/peers.svg)\n\n{}\n\
          {}\n\
          ### Solving alone\n\n\
-         The same without what comes before the solving: how long the peers solve alone, models built and grounded, \
-         median; and how long we take with what comes before it, from the scene to the base.\n\n{}\n\
+         For the peers, the median time of solving alone, without building and grounding the model. For our search, the time \
+         from the scene to the optimum, building the base included.\n\n{}\n\
          ### The synthetic class\n\n\
-         No scene gives such bases: they are made to hurt a search by landmarks and hitting sets.\n\n{}\n{}\n\
+         No scene gives such bases. They are made to be hard for a search by landmarks and hitting sets.\n\n{}\n{}\n\
          ### 10,000 objects\n\n\
-         No optimum is asked for here, but which of all objects can be derived at all: one closure. {}\n",
+         The question here is not the optimum, but which objects can be derived at all: one forward chaining. {}\n",
         peers.crowds().len(),
         agreement(peers),
         table(&times(peers, "class", &peers.classes())),
@@ -42,19 +42,19 @@ pub(crate) fn section(peers: &Peers) -> String {
 const REASONS: [(&str, &str); 4] = [
     (
         "vertex cover",
-        "nothing but a hitting set, with two members a set. Our bound by prices is that of linear programming, \
-        which odd circles keep below the optimum; what is between, we have to branch over.",
+        "nothing but a hitting set, with two members a set. Our Lagrangian bound equals that of linear programming, \
+        which odd cycles keep below the optimum. Our search must branch over the gap.",
     ),
     (
         "hitting set",
         "nothing but a hitting set, again with a gap between linear programming and whole numbers. Solvers that \
         learn clauses and bound with cores close it better.",
     ),
-    ("web", "each landmark is large and overlaps many others; many chains have to fail before they bound well."),
+    ("web", "each landmark is large and overlaps many others; it takes many failed chains to bound well."),
     (
         "stack",
         "many objects share what they need, so the linear programme over the landmarks leaves a wide gap to the optimum \
-        in whole numbers. Our search has to notice that before it turns to clauses over the options, with which the \
+        in whole numbers. Our search must notice that before it turns to clauses over the options, with which the \
         others begin.",
     ),
 ];
@@ -76,7 +76,7 @@ fn reasons(peers: &Peers) -> String {
 fn agreement(peers: &Peers) -> String {
     let solved = peers.instances.iter().filter(|instance| instance.derivable.is_some()).count();
     format!(
-        "All who finished agree on every one of {solved} answers, those on 10,000 objects included (`benches/peers/run` \
+        "All solvers that finished agree on each of the {solved} answers, including those on 10,000 objects (`benches/peers/run` \
          fails otherwise)."
     )
 }
@@ -136,8 +136,8 @@ fn crowds(peers: &Peers) -> String {
         .zip(median(crowds.iter().map(|crowd| crowd.peer("clingo"))));
     let told = |((closing, whole), clingo): ((f64, f64), f64)| {
         format!(
-            "From the base we take {}, clingo {} ({} times as long), both in the median; from the scene, the base of all \
-             10,000 objects included, we take {} at the most of {} scenes.",
+            "From the base our median time is {}, clingo's is {} ({} times as long). From the scene, with the base of all \
+             10,000 objects, our worst time is {} in {} scenes.",
             time(closing),
             within(clingo, peers.limit("clingo")),
             times_as_long(Some(clingo / closing)),

@@ -1,6 +1,6 @@
 //! The paper's tables beside ours.
 
-use singulate::experiments::Interval;
+use singulate::experiments::ConfidenceInterval;
 
 use crate::markdown::{digits, or_dash, percent, row, table, time};
 use crate::tables::{Column1, Method, Plans, Table1, Table2};
@@ -20,21 +20,20 @@ pub(crate) fn table1(figures: &Table1) -> String {
          by the sector model, for both models.\n\n\
          ### Deadlocks\n\n\
          Rates with their 95 % intervals (Wilson; the paper gives none). The sector model widens each finger, so some of \
-         its deadlocks are none; the swept finger tests the finger itself.\n\n\
+         its deadlocks are false. The swept finger tests the finger itself.\n\n\
          ![Deadlock rates: the paper's, ours by the sector model, ours by the swept finger](results/deadlocks.svg)\n\n\
          {}\n{}\n\n\
          ### Time\n\n\
-         Mean search time; a search that did not end counts as the limit.\n\n\
+         Mean search time. A search that did not end counts as the limit.\n\n\
          ![Search time against the number of objects](results/times.svg)\n\n{}\n\
          ### Answers\n\n\
-         Success is a sequence or a deadlock within the limit; other searches were late or too large, as our Base is \
-         where it holds 5,000,000 sets. Relocations are the mean over the scenes with a sequence; +1 counts the target too, as \
-         the paper does. A wrong answer is a deadlock that is none, or a sequence longer than the least, by our proof on the \
-         same base.\n\n\
+         Success is a sequence or a deadlock within the limit. Other searches were late or too large: our Base may hold \
+         5,000,000 sets. Relocations are the mean over the scenes with a sequence. +1 counts the target too, as the paper \
+         does. Wrong answers are false deadlocks, and sequences longer than the least, by our proof on the same base.\n\n\
          {}\n\
          ### Every scene planned, with places and the check\n\n\
-         The verdicts of the whole planner by the swept finger; in brackets those on the scenes that only the sector \
-         model calls a deadlock, each plan a plan that the paper's model misses.\n\n{}",
+         The verdicts of the whole planner by the swept finger. In brackets are those on scenes that only the sector model \
+         calls a deadlock: each plan among them is one that the paper's model misses.\n\n{}",
         figures.episodes,
         figures.base_episodes,
         time(f64::from(figures.time_limit_ms) / 1e3),
@@ -201,9 +200,9 @@ pub(crate) fn table2(figures: &Table2) -> String {
     format!(
         "## The paper's Table II\n\n\
          `singulate experiment table2`: places for the sequences of LOBS by the sector model, {} scenes a column in which \
-         LOBS finds a sequence. In {} of them something has to be moved; times are over these. Rates with their 95 % \
-         intervals (Wilson). Faults are the checker's, by the swept finger: a finger that meets an obstacle when it lets go, \
-         above all. Our own places are sought by the sector model too, which overlooks the fingers' outer corners: hence \
+         LOBS finds a sequence. In {} of them an object has to be moved; the times are over these. Rates have their 95 % \
+         intervals (Wilson). The checker counts faults by the swept finger, most of them fingers that meet an obstacle at the \
+         release. Our own places are searched for by the sector model too. It overlooks the fingers' outer corners, hence \
          their faults.\n\n{}",
         figures.episodes,
         listed(&moved),
@@ -214,7 +213,7 @@ pub(crate) fn table2(figures: &Table2) -> String {
 /// A rate with its interval.
 fn share(part: f64, whole: f64) -> String {
     // Counts of episodes.
-    let Interval { low, high } = Interval::wilson(part as usize, whole as usize);
+    let ConfidenceInterval { low, high } = ConfidenceInterval::wilson(part as usize, whole as usize);
     interval((whole > 0.0).then(|| part / whole), [low, high])
 }
 
@@ -228,20 +227,20 @@ fn listed(words: &[String]) -> String {
 pub(crate) fn apart(table1: &Table1, table2: &Table2) -> String {
     let (first, places) = (&table1.columns[0], &table2.columns[0]);
     format!(
-        "## What could not be the same\n\n\
-         * The machine: the paper's times are those of its own, ours of a shared one with 2 cores, in another language.\n\
+        "## Differences from the paper\n\n\
+         * The machine: the paper's times are from its own machine, ours from a shared one with 2 cores and in another language.\n\
          * The scenes: the paper does not say how it drew its own.\n\
          * Algorithm 1 as printed starts its sequence with the target and returns it, and the paper counts the length of the \
          sequence. Here the target isn't counted: add 1 to compare.\n\
          * The paper's Base and LOBS can't have seen the same scenes: with {} objects Base succeeds in {} of them without a \
          single deadlock, and LOBS calls {} a deadlock.\n\
-         * Our Base knows a set again that it has reached in another order: that is how it comes to an end where there is a \
-         deadlock, and finds it. As the paper words it, the search may go through every order.\n\
-         * The image: the paper names no resolution, here a pixel has 5 mm; the paper's places are for {} scenes a column.\n\
-         * The θ_g of Eq. 7, \"the angle from the center of the circle when it overlaps by r_g\": read as that of the lens of two \
-         equal circles, which fits the formula. Read as that of a segment r_g high, discs would overlap.\n\
+         * Our Base recognises a set that it reached before in another order, so it ends on a deadlock and finds it. The \
+         paper's text allows a search through every order.\n\
+         * The image: the paper names no resolution. Here a pixel is 5 mm wide. The paper's places are for {} scenes a column.\n\
+         * The θ_g of Eq. 7, \"the angle from the center of the circle when it overlaps by r_g\": here it is that of the lens of two \
+         equal circles, which fits the formula. With that of a segment r_g high, discs would overlap.\n\
          * The distance to objects that are still to be moved: the paper asks that a place does not affect what follows. Here \
-         r_g is kept round them and round the target.\n",
+         places keep r_g from them and from the target.\n",
         first.objects,
         percent(first.printed(BASE).success_rate),
         percent(first.printed(LOBS).deadlock_rate),

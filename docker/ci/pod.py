@@ -61,7 +61,7 @@ def check_pod() -> None:
         finally:
             docker("rm", "--force", "--volumes", name)
     grace = pod["terminationGracePeriodSeconds"] - container["lifecycle"]["preStop"]["sleep"]["seconds"]
-    assert grace > 10, "drain_ms, 10 s where nothing is said, must fit in"
+    assert grace > 10, "drain_ms, by default 10 s, must fit in"
 
 
 if __name__ == "__main__":

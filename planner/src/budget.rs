@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn time_that_is_withdrawn_is_spent_but_has_not_passed() {
+    fn withdrawn_time_shortens_the_budget_but_has_not_elapsed() {
         let clock = Less(4, 5);
         let budget = Budget::new(&clock, Duration::from_millis(10));
         assert_eq!((budget.check(), budget.remaining()), (Ok(()), Duration::from_millis(1)));

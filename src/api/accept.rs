@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_can_not_be_served_is_refused() {
+    fn an_accept_without_any_available_format_is_refused() {
         check(&["text/html"], None);
         check(&["application/json;q=0"], None);
         check(&["*/*;q=0"], None);

@@ -18,7 +18,7 @@ use tracing::Span;
 use super::problem::CHALLENGE;
 use crate::computation::internal;
 use crate::jobs::Owner;
-use crate::keys::{Found, Keys, KeysError, Scope};
+use crate::keys::{FoundKey, Keys, KeysError, Scope};
 use crate::metrics::{Metrics, Refusal};
 use crate::wire::{Problem, ProblemKind};
 
@@ -38,7 +38,7 @@ pub(super) enum Need {
 pub(super) struct Caller {
     /// The owner of the caller's jobs, for fair queuing too.
     pub(super) owner: Owner,
-    key: Option<Found>,
+    key: Option<FoundKey>,
 }
 
 impl Caller {
@@ -160,13 +160,14 @@ impl NotAdmitted {
             Self::NoKey => {
                 Problem::new(ProblemKind::Unauthorized, "send the header Authorization: Bearer and your key")
             }
-            Self::WrongKey => Problem::new(ProblemKind::Unauthorized, "there is no such key, or no longer"),
+            Self::WrongKey => Problem::new(ProblemKind::Unauthorized, "the key is unknown or no longer valid"),
             Self::Scope(scopes) => {
                 let words: Vec<&str> = scopes.iter().map(|scope| scope.as_str()).collect();
                 Problem::new(ProblemKind::Forbidden, format!("this needs a key for {}", words.join(" or ")))
             }
             Self::Rate(after) => {
-                let problem = Problem::new(ProblemKind::RateExceeded, "the key was used more often than it may be");
+                let problem =
+                    Problem::new(ProblemKind::RateExceeded, "the key was used more often than its rate allows");
                 problem.with_retry_after(*after)
             }
         }

@@ -51,7 +51,10 @@ impl App {
 
     /// The time for draining is nearly over: recall running computations.
     pub(super) fn finish_soon(&self) {
-        tracing::warn!(computations = self.running.planning.busy(), "what still runs has to deliver the best so far");
+        tracing::warn!(
+            computations = self.running.planning.busy(),
+            "running computations must deliver their best answers now"
+        );
         self.running.planning.finish_soon();
     }
 }

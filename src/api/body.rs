@@ -74,7 +74,7 @@ impl Bodies {
             Ok(Err(NotTaken::TooLarge)) => Err(too_large(max)),
             Ok(Err(NotTaken::NoRoom)) => {
                 self.metrics.refused(Refusal::Limit);
-                Err(Problem::new(ProblemKind::Overloaded, "no room for one more large body"))
+                Err(Problem::new(ProblemKind::Overloaded, "too many large bodies are being received"))
             }
             Err(_) => {
                 let seconds = self.time_limit.as_secs_f64();

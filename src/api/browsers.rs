@@ -89,7 +89,7 @@ impl FromStr for CorsOrigins {
 /// One origin, if it is written as browsers send it.
 fn origin(text: &str) -> Result<String, String> {
     if text.contains('*') {
-        return Err("'*' would let in pages that nobody knows; list each origin".to_owned());
+        return Err("'*' would admit unknown pages; list each origin".to_owned());
     }
     let url = Url::parse(text).ok().filter(|url| ["http", "https"].contains(&url.scheme()));
     // Origins are compared as text, so one that browsers write differently would never match.

@@ -34,7 +34,7 @@ pub(super) async fn over_tls(State(demands): State<Demands>, request: Request, n
     if !demands.tls || request.extensions().get::<OverTls>().is_some() {
         return next.run(request).await;
     }
-    last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS: ask https"))
+    last(Problem::new(ProblemKind::MalformedHttp, "this port speaks TLS; use https"))
 }
 
 /// The middleware that requires a client certificate if one is needed.
@@ -49,9 +49,9 @@ pub(super) async fn each_request(State(demands): State<Demands>, request: Reques
     demands.metrics.refused(Refusal::Unauthorized);
     let refused = |detail| Problem::new(ProblemKind::Unauthorized, detail);
     match shown {
-        None => refused("no client certificate came").into_response(),
+        None => refused("there is no client certificate").into_response(),
         // On a new connection the client may show another one.
-        Some(_) => last(refused("the client certificate holds no longer")),
+        Some(_) => last(refused("the client certificate is no longer valid")),
     }
 }
 

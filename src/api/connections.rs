@@ -83,7 +83,7 @@ impl Connections {
             };
             match begun {
                 Ok((stream, mark)) => serve(stream, mark, service, &app, asking).await,
-                Err(error) => tracing::debug!(%error, "no TLS was agreed on"),
+                Err(error) => tracing::debug!(%error, "the TLS handshake failed"),
             }
             drop((slot, open));
         }

@@ -23,7 +23,7 @@ pub(super) struct DocumentText(pub(super) fn() -> &'static str);
 
 /// This document
 ///
-/// The interface as OpenAPI 3.1; `/docs` shows it as a page.
+/// The interface as OpenAPI 3.1. `/docs` shows it as a page.
 #[utoipa::path(get, path = "/openapi.json", operation_id = "openapi", tag = "operation", responses(
     (status = 200, description = "The document.", body = AnyObject, content_type = "application/json"),
 ))]

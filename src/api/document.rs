@@ -23,16 +23,17 @@ use crate::wire::{Problem, ProblemKind};
     info(
         title = "singulate",
         description = "Plans the fewest relocations that free an object on a crowded table, with proof.\n\n\
-            Metres and radians everywhere; milliseconds only in fields that end in `_ms`. A verdict is an answer, not an \
-            error. Every error is a problem document (RFC 9457) that lists all faults of the body at once, each with its \
-            JSON pointer; an unknown path is a 404, a known path with another method a 405 with `Allow`. A client must refuse an `action` or a `verdict` that it doesn't know.",
+            Lengths are metres and angles are radians. Fields that end in `_ms` are milliseconds. A verdict is an answer, \
+            not an error. Every error is a problem document (RFC 9457). It lists all faults of the body at once, each with \
+            its JSON pointer. An unknown path is a 404, another method on a known path a 405 with `Allow`. A client must \
+            refuse an `action` or a `verdict` that it doesn't know.",
         contact(),
         license(name = "MIT", identifier = "MIT")
     ),
     tags(
-        (name = "planning", description = "Plans, their check, the survey of a table, and what is known before any search."),
-        (name = "jobs", description = "Plans that wait for a worker, and for their caller to come back."),
-        (name = "operation", description = "Probes, the build, this document."),
+        (name = "planning", description = "Plans and their check, the survey of a table, and the shadows and options of its objects."),
+        (name = "jobs", description = "Plans that are made in the background."),
+        (name = "operation", description = "Probes, version, metrics and this document."),
     ),
     components(schemas(Problem))
 )]
@@ -66,8 +67,7 @@ fn openapi() -> utoipa::openapi::OpenApi {
 
 /// The name and the description of the security scheme.
 const SCHEME: &str = "bearer";
-const BEARER: &str = "A key of the operator's. The words beside it name what the key must be for. A service that runs \
-    without keys asks for none, hence the empty alternative.";
+const BEARER: &str = "An API key from the operator. The scopes beside it name what the key must be for. A service that runs without keys asks for none, hence the empty alternative.";
 
 /// Describe the access that an operation needs, and its problems.
 fn describe_need(need: Need, item: &mut PathItem) {
@@ -88,7 +88,8 @@ fn describe_need(need: Need, item: &mut PathItem) {
             let mut response = described(&example, description);
             if example.kind() == ProblemKind::Unauthorized {
                 let text = ObjectBuilder::new().schema_type(Type::String).build();
-                let header = HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and why (RFC 6750)."));
+                let header =
+                    HeaderBuilder::new().schema(Some(text)).description(Some("`Bearer` and the reason (RFC 6750)."));
                 response.headers.insert("WWW-Authenticate".to_owned(), header.build().into());
             }
             operation.responses.responses.insert(example.status().to_string(), response.into());
@@ -136,9 +137,9 @@ pub fn openapi_json() -> String {
 
 /// The descriptions of key problems, those of any key first.
 const KEY_PROBLEMS: [(NotAdmitted, &str); 3] = [
-    (NotAdmitted::WrongKey, "No key, or one that does not hold."),
-    (NotAdmitted::Rate(Duration::ZERO), "The key was used more often than it may be."),
-    (NotAdmitted::Scope(&[Scope::Plan]), "The key is for something else."),
+    (NotAdmitted::WrongKey, "The key is missing or not valid."),
+    (NotAdmitted::Rate(Duration::ZERO), "The key was used more often than its rate allows."),
+    (NotAdmitted::Scope(&[Scope::Plan]), "The key lacks the scope for this call."),
 ];
 
 /// The same text, built once.

@@ -15,7 +15,7 @@ use tracing::{Instrument, Span, field};
 use crate::keys::without_keys;
 use crate::metrics::{Metrics, milliseconds};
 use crate::traces::{RequestSpan, Traceparent};
-use crate::wire::Cause;
+use crate::wire::LoggedProblem;
 
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 const TRACEPARENT: HeaderName = HeaderName::from_static("traceparent");
@@ -37,7 +37,7 @@ struct Trail {
     started: Instant,
     status: Option<StatusCode>,
     /// The kind of the problem in the answer.
-    cause: Option<Cause>,
+    cause: Option<LoggedProblem>,
 }
 
 impl Drop for Trail {
@@ -87,7 +87,7 @@ pub(super) async fn each_request(State(metrics): State<Arc<Metrics>>, request: R
         None => answered.await,
     };
     trail.status = Some(response.status());
-    trail.cause = response.extensions().get::<Cause>().copied();
+    trail.cause = response.extensions().get::<LoggedProblem>().copied();
     response.headers_mut().insert(REQUEST_ID, id);
     response
 }

@@ -41,9 +41,9 @@ impl PlanningCalls {
 
 /// Plan now
 ///
-/// Which objects to move, in which order, to where, so that the gripper can grasp the target; or the proof that nothing
-/// can free it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`;
-/// a scene too large to be read within it is `timed_out` unread, even if it is faulty.
+/// Says which objects to move, in which order and to where, so that the gripper can grasp the target. Or proves that no
+/// sequence of pick-and-place frees it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`. A
+/// scene that is too large to be read within it gets `timed_out`, even if it is faulty.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -51,7 +51,7 @@ impl PlanningCalls {
     tag = "planning",
     request_body(content = SceneBody, content_type = "application/json", description = "The scene and how to plan."),
     responses(
-        (status = 200, description = "The verdict with its plan and proof; as a drawing where `Accept` prefers one.",
+        (status = 200, description = "The verdict with its plan and proof, or a drawing if `Accept` prefers one.",
          content((AnswerBody = "application/json"), (String = "image/svg+xml"))),
         RequestProblems,
     )
@@ -64,18 +64,18 @@ pub(super) async fn plan(
     calls.answer(&caller, request, &[Form::Json, Form::Svg], Plan).await
 }
 
-/// Check a stated answer
+/// Check an answer
 ///
-/// The independent checker replays the plan on the scene and re-checks whatever is stated besides: locks, landmarks, the
-/// bound.
+/// The independent checker replays the plan on the scene. It also checks the locks, the landmarks and the bound that
+/// the answer states.
 #[utoipa::path(
     post,
     path = "/v1/plans/verify",
     operation_id = "verify",
     tag = "planning",
-    request_body(content = VerifyBody, content_type = "application/json", description = "A scene and a stated answer."),
+    request_body(content = VerifyBody, content_type = "application/json", description = "A scene and the answer to check."),
     responses(
-        (status = 200, description = "Whether the answer holds, and all that does not.",
+        (status = 200, description = "Whether the answer holds, and every fault that was found.",
          body = VerificationBody, content_type = "application/json"),
         RequestProblems,
     )
@@ -88,10 +88,11 @@ pub(super) async fn verify(
     calls.answer(&caller, request, &[Form::Json], |_| Verification).await
 }
 
-/// Every movable object as the target
+/// Survey every movable object as the target
 ///
-/// Logic only: how many relocations each object would need, without places for them. The scene's own `target` must be
-/// there, but has no part in the answer, nor has any setting but the time limit. `time_limit_ms` is for the whole call; what is undecided then is `timed_out`.
+/// Says how many relocations each object would need, without looking for places. The scene's own `target` is required,
+/// but does not change the answer. Of the settings only the time limit does. `time_limit_ms` is for the whole call:
+/// objects that are undecided by then are `timed_out`.
 #[utoipa::path(
     post,
     path = "/v1/survey",
@@ -99,7 +100,7 @@ pub(super) async fn verify(
     tag = "planning",
     request_body(content = SceneBody, content_type = "application/json", description = "The scene."),
     responses(
-        (status = 200, description = "What holds for each movable object.",
+        (status = 200, description = "The verdict and the bound of each movable object.",
          body = SurveyBody, content_type = "application/json"),
         RequestProblems,
     )
@@ -114,9 +115,9 @@ pub(super) async fn survey(
 
 /// Shadows and options of every object
 ///
-/// What is known before any search, by the scene's `grasp_model`: which obstacle blocks which yaws, and which sets of
-/// obstacles would have to go. With `sector` the paper's polar histogram too. The scene's `target`, `search`, `placement`
-/// and `objective` have no part in it. What is not done within `time_limit_ms` is a 503.
+/// Says which obstacle blocks which yaws, and which sets of obstacles would have to go, by the scene's `grasp_model`.
+/// With `sector` the paper's polar histogram comes too. The scene's `target`, `search`, `placement` and `objective` do
+/// not change the answer. A call that is not done within `time_limit_ms` is a 503.
 #[utoipa::path(
     post,
     path = "/v1/knowledge",
@@ -124,7 +125,7 @@ pub(super) async fn survey(
     tag = "planning",
     request_body(content = SceneBody, content_type = "application/json", description = "The scene."),
     responses(
-        (status = 200, description = "What is known of each object.",
+        (status = 200, description = "The shadows and options of each object.",
          body = KnowledgeBody, content_type = "application/json"),
         RequestProblems,
     )

@@ -24,13 +24,13 @@ pub(super) struct ProbeBody {
     status: &'static str,
 }
 
-/// The build that answers.
+/// The running service.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct VersionBody {
     /// The name of the service.
     #[schema(example = "singulate")]
     name: &'static str,
-    /// Its version.
+    /// The version of the service.
     #[schema(example = "0.1.0")]
     version: &'static str,
 }
@@ -42,21 +42,21 @@ const OK: Json<ProbeBody> = Json(ProbeBody { status: "ok" });
 
 /// Is the process alive?
 ///
-/// Answers as long as the service can answer at all.
+/// Answers as long as the process can answer requests.
 #[utoipa::path(get, path = "/livez", operation_id = "livez", tag = "operation", responses(
-    (status = 200, description = "It is.", body = ProbeBody, content_type = "application/json"),
+    (status = 200, description = "The process is alive.", body = ProbeBody, content_type = "application/json"),
 ))]
 pub(super) async fn livez() -> Json<ProbeBody> {
     OK
 }
 
-/// Does the service take requests?
+/// Is the service ready?
 ///
-/// It does not while it shuts down, when a planning thread has died, or as long as the store of jobs can't be reached.
+/// It is not ready while it shuts down, after a planning thread has died, and while the store of jobs can't be reached.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "operation", responses(
-    (status = 200, description = "It does.", body = ProbeBody, content_type = "application/json"),
-    (status = 503, description = "It does not.", body = Problem, content_type = "application/problem+json",
-     headers(("Retry-After" = u32, description = "When to ask again, s."))),
+    (status = 200, description = "The service is ready.", body = ProbeBody, content_type = "application/json"),
+    (status = 503, description = "The service is not ready.", body = Problem, content_type = "application/problem+json",
+     headers(("Retry-After" = u32, description = "Seconds to wait before asking again."))),
 ))]
 pub(super) async fn readyz(State(running): State<Arc<Running>>) -> Result<Json<ProbeBody>, Problem> {
     if !running.ready() {
@@ -78,11 +78,11 @@ pub(super) async fn version() -> Json<VersionBody> {
     Json(VersionBody { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") })
 }
 
-/// What is measured
+/// Metrics
 ///
-/// Counters, gauges and histograms of this server since its start, for Prometheus; OpenMetrics text.
+/// Counters, gauges and histograms of this server since its start, as OpenMetrics text for Prometheus.
 #[utoipa::path(get, path = "/metrics", operation_id = "metrics", tag = "operation", responses(
-    (status = 200, description = "Every family with its series.", body = String,
+    (status = 200, description = "Every metric family with its series.", body = String,
      content_type = "application/openmetrics-text; version=1.0.0; charset=utf-8"),
 ))]
 pub(super) async fn metrics(State(running): State<Arc<Running>>) -> impl IntoResponse {

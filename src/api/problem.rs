@@ -83,7 +83,7 @@ pub(super) fn panicked(panic: Box<dyn Any + Send + 'static>) -> Response {
 
 /// Unknown path.
 pub(super) async fn not_found() -> Problem {
-    Problem::new(ProblemKind::NotFound, "see /openapi.json for what lives here")
+    Problem::new(ProblemKind::NotFound, "/openapi.json lists the paths")
 }
 
 /// Wrong method; the router adds `Allow`.
@@ -97,7 +97,7 @@ pub(super) struct RequestProblems;
 /// Each problem's description and example detail. The schema's own example is the 422.
 const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
     (ProblemKind::MalformedJson, "The body is not JSON, or incomplete.", "the body is empty"),
-    (ProblemKind::NotAcceptable, "No representation that `Accept` admits.", "served here: application/json"),
+    (ProblemKind::NotAcceptable, "`Accept` admits none of the available formats.", "served here: application/json"),
     (ProblemKind::BodyTimeout, "The body came too slowly.", "the body was not complete after 5 s"),
     (
         ProblemKind::BodyTooLarge,
@@ -106,18 +106,18 @@ const REQUEST_PROBLEMS: [(ProblemKind, &str, &str); 8] = [
     ),
     (
         ProblemKind::UnsupportedMediaType,
-        "The body is not declared to be JSON in UTF-8.",
+        "The body is not declared as JSON in UTF-8.",
         "there is no Content-Type; send application/json",
     ),
     (ProblemKind::InvalidRequest, "The request is invalid: every fault with its JSON pointer.", ""),
     (
         ProblemKind::CheckFailed,
-        "A defect of the service; an answer that failed its own check is withheld.",
+        "A bug of the service. An answer that fails its check is not served.",
         "the answer is withheld; the scene is in the log",
     ),
     (
         ProblemKind::Overloaded,
-        "Every thread is busy, and the queue is full or no thread is likely to be free within the time limit; or the service shuts down.",
+        "The service shuts down, or every thread is busy and none is expected to be free within the time limit, or the queue is full.",
         "every thread is busy and the queue is full",
     ),
 ];
@@ -143,7 +143,8 @@ pub(super) fn described(example: &Problem, description: &str) -> openapi::Respon
         return response.build();
     }
     let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).build();
-    let retry_after = HeaderBuilder::new().schema(Some(seconds)).description(Some("When to come again, s.")).build();
+    let retry_after =
+        HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait before the next try.")).build();
     response.header("Retry-After", retry_after).build()
 }
 
@@ -153,7 +154,7 @@ mod tests {
     use crate::workers::Refused;
 
     #[test]
-    fn who_is_refused_comes_again_after_whole_seconds_neither_at_once_nor_never() {
+    fn retry_after_is_whole_seconds_from_1_to_60() {
         let seconds = |millis| seconds(&Refused::TooLate { retry_after: Duration::from_millis(millis) }.into());
         assert_eq!([0, 10, 1000, 1001, 59_001, 1_000_000].map(seconds), [1, 1, 1, 2, 60, 60]);
         assert_eq!(super::seconds(&Refused::Full.into()), 1);

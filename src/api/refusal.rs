@@ -12,7 +12,7 @@ pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
     let status = status_line.strip_prefix("HTTP/1.1 ").or_else(|| status_line.strip_prefix("HTTP/1.0 "))?.get(..3)?;
     let (kind, detail) = match status {
         "400" => (ProblemKind::MalformedHttp, "the request's head is not HTTP/1.1"),
-        "414" => (ProblemKind::UriTooLong, "no path of this service is so long"),
+        "414" => (ProblemKind::UriTooLong, "the path is longer than any path of this service"),
         "431" => (ProblemKind::HeadTooLarge, "a head has at most 100 fields and 400 kB"),
         _ => return None,
     };
@@ -25,7 +25,7 @@ pub(super) fn problem_for(bytes: &[u8]) -> Option<Vec<u8>> {
 
 /// The answer to a client that starts with HTTP/2. Such clients recognise HTTP/1.1 and name it in their error.
 pub(super) fn of_http_2() -> Vec<u8> {
-    let detail = "this service speaks HTTP/1.1 and no HTTP/2";
+    let detail = "this service speaks HTTP/1.1, not HTTP/2";
     response("HTTP/1.1 400 Bad Request", "connection: close", &Problem::new(ProblemKind::MalformedHttp, detail))
 }
 

@@ -158,6 +158,6 @@ async fn drain(app: &Arc<App>, mut connections: Connections, background: &Backgr
 async fn end_computations(planning: &Arc<Planning>, end: Instant) {
     let own = Arc::clone(planning);
     if timeout_at(end, spawn_blocking(move || own.join())).await.is_err() {
-        tracing::error!("a computation does not end though it is cancelled");
+        tracing::error!("a cancelled computation does not end");
     }
 }

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[tokio::test]
-    async fn bytes_that_something_above_holds_back_are_not_waited_for_either() {
+    async fn a_client_that_takes_none_of_buffered_bytes_is_cut_off_too() {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let silent = TcpStream::connect(listener.local_addr().unwrap()).await.unwrap();
         let socket = Socket::new(listener.accept().await.unwrap().0, Duration::from_millis(50));

@@ -10,7 +10,7 @@ use super::plan::withheld;
 use super::progress::Progress;
 use super::verify::Format;
 use super::{Failure, results, terminal};
-use crate::experiments::{Cause, ExperimentError, ExperimentSettings, table1, table2};
+use crate::experiments::{EpisodeError, ExperimentError, ExperimentSettings, table1, table2};
 use crate::wire::{Table1Body, Table2Body};
 use singulate_planner::plan::PlanError;
 
@@ -21,17 +21,17 @@ const MAX_EPISODES: u64 = 1_000_000;
 #[derive(Debug, Args)]
 pub(super) struct Experiment {
     #[command(subcommand)]
-    table: Table,
+    table: PaperTable,
 }
 
 #[derive(Debug, Subcommand)]
-enum Table {
+enum PaperTable {
     /// Table I: deadlocks, successes, search time and relocations of the baseline, LOBS and ours
     #[command(after_help = results::NOT_THE_SAME)]
     Table1 {
         #[command(flatten)]
         common: Common,
-        /// Episodes that the baseline is given, which may take the whole time limit for each [default: episodes, at most 20]
+        /// Episodes for the baseline, which may take the whole time limit for each [default: episodes, at most 20]
         #[arg(long, value_name = "N")]
         base_episodes: Option<usize>,
     },
@@ -51,10 +51,10 @@ struct Common {
     /// The same seed gives the same scenes, on any machine
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// For each search and each plan, ms
+    /// Time limit of each search and each plan, ms
     #[arg(long, value_name = "MS", default_value_t = 60_000, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit_ms: u64,
-    /// Episodes at a time; for each the baseline may hold 5,000,000 sets of objects [default: one per core]
+    /// Episodes run at a time; in each the baseline may hold 5,000,000 sets of objects [default: one per core]
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     jobs: Option<usize>,
     /// json: for programs; text: for people
@@ -67,7 +67,7 @@ impl Experiment {
         let mut progress = Progress::start();
         let told = |done: usize, total: usize| progress.tell(done, total);
         match self.table {
-            Table::Table1 { common, base_episodes } => {
+            PaperTable::Table1 { common, base_episodes } => {
                 let settings = common.settings(base_episodes)?;
                 let columns = table1(&settings, told);
                 progress.end();
@@ -77,7 +77,7 @@ impl Experiment {
                     Format::Text => terminal::print(&results::table1(&settings, &columns)),
                 }
             }
-            Table::Table2 { common } => {
+            PaperTable::Table2 { common } => {
                 let settings = common.settings(Some(0))?;
                 let columns = table2(&settings, told);
                 progress.end();
@@ -112,7 +112,7 @@ impl Common {
 
 fn failed(error: &ExperimentError) -> Failure {
     match &error.cause {
-        Cause::Plan(PlanError::Refused(report)) => withheld(error, report),
+        EpisodeError::Plan(PlanError::Refused(report)) => withheld(error, report),
         _ => Failure::Broken(error.to_string()),
     }
 }

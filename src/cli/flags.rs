@@ -39,7 +39,7 @@ impl<const SERVICE: bool> Args for Flags<SERVICE> {
             .value_name("FILE")
             .value_parser(clap::value_parser!(PathBuf))
             .help_heading("Settings")
-            .help("A TOML file with settings, keys as the flags with _ for - [env: SINGULATE_CONFIG]");
+            .help("A TOML file with settings; a key is the flag's name with _ for - [env: SINGULATE_CONFIG]");
         Self::settings().fold(command.arg(config), |command, setting| {
             let (default, variable) = (setting.get(&defaults), setting.variable());
             let flag = Arg::new(setting.name)

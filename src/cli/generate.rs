@@ -10,7 +10,7 @@ use singulate_planner::scene::{GripperDraft, Scene, SceneLimits};
 /// The arguments of `generate`. The defaults are the paper's gripper and table.
 #[derive(Debug, Args)]
 pub(super) struct Generate {
-    /// How many objects, the target included
+    /// Number of objects, the target included
     #[arg(long, default_value_t = 16)]
     objects: usize,
     /// Width and height of the table, m
@@ -37,7 +37,7 @@ pub(super) struct Generate {
     /// Extra gap round fingers and new places, m
     #[arg(long, default_value_t = 0.0)]
     margin: f64,
-    /// How likely an object other than the target is fixed, 0 to 1
+    /// Probability that an object other than the target is fixed, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     fixed_share: f64,
     /// One dense cluster instead of objects anywhere

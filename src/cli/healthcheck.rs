@@ -27,14 +27,14 @@ const ELSEWHERE: &str = "; a service that was started with --listen or --config 
 /// The arguments of `healthcheck`.
 #[derive(Debug, Args)]
 pub(super) struct Healthcheck {
-    /// What to ask, a whole address such as http://127.0.0.1:8080/readyz; without it, the service of this machine that has the
+    /// The address to ask, such as http://127.0.0.1:8080/readyz; by default the service on this machine that has the
     /// settings of the environment, by HTTP or TLS
     #[arg(long, conflicts_with_all = ["listen", "config"])]
     url: Option<String>,
-    /// Where the service listens, as it was said to `serve` [env: SINGULATE_LISTEN]
+    /// The address that the service listens on, as given to `serve` [env: SINGULATE_LISTEN]
     #[arg(long, value_name = "ADDR:PORT")]
     listen: Option<String>,
-    /// The file with the service's settings, as it was said to `serve` [env: SINGULATE_CONFIG]
+    /// The file with the service's settings, as given to `serve` [env: SINGULATE_CONFIG]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 }

@@ -16,22 +16,22 @@ pub(super) struct Key {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make a key and print it, once; the keys file gets its digest only
+    /// Make a key and print it once; the keys file gets only its digest
     New(New),
 }
 
 #[derive(Debug, Args)]
 struct New {
-    /// Whose key it is: stands in the log, and owns the jobs. Several keys may have one name
+    /// The key's owner, who is named in the log and owns the jobs. Several keys may have the same name
     name: String,
-    /// What it is for: plan, jobs, read-only, metrics; separated by commas
+    /// The calls that it opens: plan, jobs, read-only, metrics; separated by commas
     #[arg(long, default_value = "plan,jobs")]
     scopes: Scopes,
-    /// Requests per second; one second's worth may come at once
+    /// Requests per second; one second's worth may come in a burst
     // What a robot asks that plans anew after every step, many times over.
     #[arg(long, default_value = "50")]
     rate: Rate,
-    /// Append the entry to this file, which is made if it is not there; without it the entry is printed below the key
+    /// Append the entry to this file, or create it; by default the entry is printed below the key
     #[arg(long, value_name = "FILE")]
     api_keys_file: Option<PathBuf>,
 }

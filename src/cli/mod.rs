@@ -24,8 +24,8 @@ use crate::config::{self, Config, ConfigError, Stated};
 use crate::telemetry;
 
 const EXIT_CODES: &str = "\
-Exit status: 0 where an answer was given, whatever the verdict; 2 for bad arguments, settings or scenes, \
-with every fault on stderr; 1 for anything else.";
+Exit status: 0 for an answer, whatever its verdict; 2 for bad arguments, settings or scenes, \
+with every fault on stderr; 1 for any other failure.";
 
 /// Plans the fewest relocations that free an object on a crowded table, and proves it.
 ///
@@ -41,19 +41,19 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Answer over HTTP
+    /// Serve over HTTP
     Serve(serve::Serve),
     /// Plan for the scene in a file
     Plan(plan::Plan),
     /// Check a plan against its scene
     Verify(verify::Verify),
-    /// How many relocations every movable object would need
+    /// Count the relocations that every movable object would need
     Survey(survey::Survey),
-    /// Make up a scene and print it as a request
+    /// Generate a scene and print it as a request
     Generate(generate::Generate),
-    /// Make keys for those who may call
+    /// Make API keys
     Key(key::Key),
-    /// Run one of the paper's tables on made-up scenes
+    /// Run one of the paper's tables on generated scenes
     Experiment(experiment::Experiment),
     /// Print the interface document
     Openapi,

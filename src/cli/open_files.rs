@@ -12,7 +12,7 @@ pub(super) fn room_for(connections: usize) -> usize {
     let mut limit = getrlimit(Resource::Nofile);
     limit.current = limit.maximum;
     if let Err(error) = setrlimit(Resource::Nofile, limit) {
-        tracing::warn!(%error, "the limit of open files stays as it is");
+        tracing::warn!(%error, "the limit of open files could not be raised");
     }
     let open_files = getrlimit(Resource::Nofile).current;
     let room = open_files.map_or(usize::MAX, room_within);
@@ -20,7 +20,7 @@ pub(super) fn room_for(connections: usize) -> usize {
         tracing::warn!(
             ?open_files,
             connections = room,
-            "fewer connections than max_connections: open files are limited"
+            "the limit of open files allows fewer connections than max_connections"
         );
     }
     connections.min(room)

@@ -2,20 +2,20 @@
 
 use super::table::{Column, table};
 use crate::experiments::{
-    ExperimentSettings, Interval, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed, Repositioning,
-    Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
+    ConfidenceInterval, ExperimentSettings, MethodFigures, ModelFigures, PlacementFigures, PlanFigures, Printed,
+    Repositioning, Spread, TABLE1_EPISODES, TABLE2_EPISODES, Table1Column, Table2Column,
 };
 use singulate_planner::paper::{GraspModelName, SearchMethod};
 
 /// The figures that can't be reproduced exactly.
 pub(super) const NOT_THE_SAME: &str = "\
-What can't be as it was for the paper's own figures: its machine; its scenes, which it only says
-are random. Algorithm 1 as printed counts the target; here it isn't counted: add 1 to compare. Its
-baseline and its LOBS can't have seen the same scenes: for N=16 the one finds sequences in 95 % of
-them, the other calls 20 % a deadlock. Our baseline knows a set of objects again that it reached in
-another order; of that the paper says nothing. For places the paper names no resolution (here 5 mm)
-and leaves open how its θ_g is measured (here by the lens of two equal circles) and how far from
-objects that are still to be moved a place must be (here r_g).";
+Differences from the paper's own experiments. The machine is another one. The scenes differ, since
+the paper only says that they are random. Algorithm 1 as printed counts the target. Here it isn't
+counted: add 1 to compare. The paper's baseline and its LOBS can't have seen the same scenes: for
+N=16 one finds sequences in 95 % of them, the other calls 20 % a deadlock. Our baseline recognises a
+set of objects that it reached before in another order; the paper does not mention this. For places
+the paper names no resolution (here 5 mm). It leaves open how its θ_g is measured (here by the lens
+of two equal circles) and how far a place must be from objects that are still to be moved (here r_g).";
 
 /// Columns of text are left-aligned, those of numbers right-aligned.
 const WORDS: [&str; 5] = ["model", "method", "places", "scenes", "faults"];
@@ -31,11 +31,11 @@ pub(super) fn table1(settings: &ExperimentSettings, columns: &[Table1Column]) ->
         ),
         endings(columns),
         searches(columns),
-        "A search that the time limit (late) or the limit of memory (too large) ended counts as the time limit.\n\
+        "A search that ended at the time limit (late) or the memory limit (too large) counts as the time limit.\n\
          +1: with the target counted, as in the paper's next column.\n"
             .to_owned(),
         plans(columns),
-        "Planned by the swept finger, with places and check; sector's deadlocks: what the sector model alone calls one.\n"
+        "Planned by the swept finger, with places and check. sector's deadlocks: scenes that only the sector model calls one.\n"
             .to_owned(),
         conclusions(columns),
         format!("{NOT_THE_SAME}\n"),
@@ -53,11 +53,11 @@ pub(super) fn table2(settings: &ExperimentSettings, columns: &[Table2Column]) ->
              for the\nsequences that LOBS finds by the sector model\n"
         ),
         placings(columns),
-        "Times are over the episodes in which something has to be moved: all but the graspable ones.\n".to_owned(),
+        "Times are over the episodes in which an object has to be moved: all but the graspable ones.\n".to_owned(),
         faults(columns),
-        "Faulty are plans that the checker refuses, which judges by the swept finger; at release: a finger meets an\n\
-         obstacle when it lets go. The exact places are sought by the sector model too, which overlooks the fingers' outer\n\
-         corners: hence their faults.\n"
+        "Faulty plans are those that the checker, with the swept finger, refuses. At release: a finger meets an obstacle\n\
+         when it opens. The exact places are searched for by the sector model too. It overlooks the fingers' outer\n\
+         corners, hence their faults.\n"
             .to_owned(),
         format!("{NOT_THE_SAME}\n"),
     ]
@@ -250,7 +250,7 @@ fn percent(part: usize, whole: usize) -> String {
 
 /// The 95 % interval of a rate in percent.
 fn sureness(part: usize, whole: usize) -> String {
-    let interval = (whole > 0).then(|| Interval::wilson(part, whole));
+    let interval = (whole > 0).then(|| ConfidenceInterval::wilson(part, whole));
     or_dash(interval, |interval| format!("{:.1}-{:.1}", 100.0 * interval.low, 100.0 * interval.high))
 }
 

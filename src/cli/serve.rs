@@ -119,7 +119,7 @@ fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
         asked().await;
         tokio::spawn(async move {
             let again = asked().await.as_raw_value();
-            tracing::warn!("asked to end a second time");
+            tracing::warn!("ended at once by a second signal");
             std::process::exit(KILLED + again);
         });
     })

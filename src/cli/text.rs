@@ -16,7 +16,7 @@ use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, 
 const MANY: usize = 40;
 
 /// Added to `no_space`.
-const NO_PROOF: &str = "This is no proof: the places that were tried do not suffice, others may.\n";
+const NO_PROOF: &str = "This is not a proof: only the places that were tried do not suffice.\n";
 
 /// The text with control characters made visible: an id must not move the cursor, forge a line, or turn it round.
 pub(super) fn plain(text: &str) -> String {
@@ -149,7 +149,7 @@ fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        format!("\nOut of reach for good as well: {}{more}\n", ids(&others[..others.len().min(MANY)]))
+        format!("\nAlso locked: {}{more}\n", ids(&others[..others.len().min(MANY)]))
     };
     format!(
         "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\
@@ -213,7 +213,8 @@ pub(super) fn survey(scene: &Scene, entries: &[SurveyEntry]) -> String {
         };
         vec![plain(scene.object(entry.object).id()), verdict.to_owned(), relocations]
     });
-    let note = "Relocations are those that logic asks for; whether each finds a place is for `plan` to say.\n";
+    let note =
+        "The numbers do not consider places. `plan` finds out whether there are places for the relocated objects.\n";
     format!("{}\n{note}", table(&columns, rows))
 }
 

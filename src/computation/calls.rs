@@ -1,7 +1,7 @@
 //! The planning calls: plan, verify, survey, knowledge.
 
 use super::problem::{late, unread};
-use super::{Computation, Form, Known, Served, Tools, json};
+use super::{Computation, Form, KnownRequest, Served, Tools, json};
 use crate::render;
 use crate::wire::{
     AnswerBody, KnowledgeBody, PlanRequest, Problem, RequestLimits, SurveyBody, VerificationBody, VerifyRequest,
@@ -43,16 +43,16 @@ impl Computation for Plan {
     }
 
     /// A time-out is a verdict, and has a drawing if the scene is known.
-    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+    fn too_late(self, known: KnownRequest<'_, PlanRequest>) -> Served {
         match (known, self.0) {
-            (Known::Request(request), _) => {
+            (KnownRequest::Request(request), _) => {
                 let answer = Answer { statement: Statement::timed_out(), statistics: Statistics::default() };
                 self.write(request, &answer.into())
             }
-            (Known::Glance(glance), Form::Json) => {
+            (KnownRequest::Glance(glance), Form::Json) => {
                 AnswerBody::unread(glance).map_or_else(|| Err(unread()), |body| json(&body))
             }
-            (Known::Glance(_), Form::Svg) => Err(unread()),
+            (KnownRequest::Glance(_), Form::Svg) => Err(unread()),
         }
     }
 }
@@ -73,7 +73,7 @@ impl Computation for Verification {
         json(&VerificationBody::new(&(tools.engine.check)(&request.scene, statement, budget)))
     }
 
-    fn too_late(self, _: Known<'_, VerifyRequest>) -> Served {
+    fn too_late(self, _: KnownRequest<'_, VerifyRequest>) -> Served {
         json(&VerificationBody::timed_out())
     }
 }
@@ -93,10 +93,10 @@ impl Computation for Survey {
         json(&SurveyBody::new(&request.scene, &tools.engine.survey(request, budget)?))
     }
 
-    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+    fn too_late(self, known: KnownRequest<'_, PlanRequest>) -> Served {
         match known {
-            Known::Request(request) => json(&SurveyBody::timed_out(&request.scene)),
-            Known::Glance(_) => Err(unread()),
+            KnownRequest::Request(request) => json(&SurveyBody::timed_out(&request.scene)),
+            KnownRequest::Glance(_) => Err(unread()),
         }
     }
 }
@@ -126,10 +126,10 @@ impl Computation for Knowledge {
         json(&KnowledgeBody::new(&request.scene, &known, &histograms))
     }
 
-    fn too_late(self, known: Known<'_, PlanRequest>) -> Served {
+    fn too_late(self, known: KnownRequest<'_, PlanRequest>) -> Served {
         match known {
-            Known::Request(_) => Err(late()),
-            Known::Glance(_) => Err(unread()),
+            KnownRequest::Request(_) => Err(late()),
+            KnownRequest::Glance(_) => Err(unread()),
         }
     }
 }

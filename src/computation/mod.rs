@@ -14,7 +14,7 @@ use serde::Serialize;
 pub use engine::Engine;
 pub use planning::{Planning, note_scene};
 pub use problem::internal;
-pub use reading::Known;
+pub use reading::KnownRequest;
 
 use crate::metrics::Metrics;
 use crate::wire::{PlanRequest, Problem, RequestLimits};
@@ -43,7 +43,7 @@ pub trait Computation: Copy + Send + Sync + 'static {
     ///
     /// # Errors
     /// A problem if there is none.
-    fn too_late(self, known: Known<'_, Self::Request>) -> Served;
+    fn too_late(self, known: KnownRequest<'_, Self::Request>) -> Served;
 }
 
 /// The tools of a computation besides its request.

@@ -22,7 +22,7 @@ pub(super) struct Reading<C: Computation, B> {
 }
 
 /// The known part of a request at its time-out.
-pub enum Known<'a, R> {
+pub enum KnownRequest<'a, R> {
     /// The whole request.
     Request(&'a R),
     /// The body was too large to be read in time.
@@ -78,7 +78,7 @@ impl<C: Computation, B: Deref<Target = [u8]>> Reading<C, B> {
     }
 
     /// The known part of the request now.
-    pub(super) fn known(&self) -> Known<'_, C::Request> {
-        self.request.get().map_or(Known::Glance(&self.glance), Known::Request)
+    pub(super) fn known(&self) -> KnownRequest<'_, C::Request> {
+        self.request.get().map_or(KnownRequest::Glance(&self.glance), KnownRequest::Request)
     }
 }

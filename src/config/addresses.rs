@@ -30,7 +30,7 @@ fn meant(text: &str) -> String {
     match (host, ip(host)) {
         ("", _) => format!("; did you mean 127.0.0.1:{port}, or 0.0.0.0:{port} for other machines too?"),
         (_, Some(ip)) => suggest(SocketAddr::new(ip, port)),
-        (_, None) => "; a name is not looked up: give its address".to_owned(),
+        (_, None) => "; names are not resolved: give the address".to_owned(),
     }
 }
 
@@ -65,7 +65,7 @@ pub(super) fn jobs_url(text: &str) -> Result<String, String> {
                 "an address that begins with '{scheme}:' is neither sqlite:PATH nor postgres://HOST/DATABASE{meant}"
             )
         }
-        None if is_path(text) => format!("'{text}' says no kind of store; did you mean sqlite:{text}?"),
+        None if is_path(text) => format!("'{text}' names no kind of store; did you mean sqlite:{text}?"),
         None => "an address begins with sqlite: or postgres://".to_owned(),
     })
 }
@@ -94,7 +94,7 @@ mod tests {
             ("http://127.0.0.1:9000/", "did you mean 127.0.0.1:9000?"),
             (" 127.0.0.1:9000 ", "did you mean 127.0.0.1:9000?"),
             ("127.0.0.1:99999", "a port is a number up to 65535"),
-            ("cell-4:9000", "a name is not looked up: give its address"),
+            ("cell-4:9000", "names are not resolved: give the address"),
         ] {
             let fault = listen(text).unwrap_err();
             assert_eq!(fault, format!("'{text}' is not an address and port like 0.0.0.0:8080; {meant}"));

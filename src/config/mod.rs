@@ -65,7 +65,7 @@ impl Config {
     fn without_keys(&self) -> String {
         let listen = self.listen;
         format!(
-            "Others can reach {listen}, and nothing says who may call. Either make keys:\n\n  \
+            "Other machines can reach {listen}, but there are no API keys. Either make keys:\n\n  \
              singulate key new NAME --api-keys-file keys.toml\n  \
              singulate serve --listen {listen} --api-keys-file keys.toml\n\n\
              or let everybody in who can reach it:\n\n  \
@@ -78,8 +78,8 @@ impl Config {
     pub fn warning(&self) -> Option<&'static str> {
         match (&self.server.api_keys_file, self.insecure, self.listen.ip().is_loopback()) {
             (Some(_), ..) | (None, true, true) => None,
-            (None, false, _) => Some("NO KEYS: every program of this machine may call; see --api-keys-file"),
-            (None, true, false) => Some("NO KEYS: everybody who reaches the service may call; see --api-keys-file"),
+            (None, false, _) => Some("NO KEYS: every program on this machine may call; see --api-keys-file"),
+            (None, true, false) => Some("NO KEYS: anybody who can reach the service may call; see --api-keys-file"),
         }
     }
 }

@@ -41,7 +41,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "listen",
         needed_by: NeededBy::Service,
         placeholder: "ADDR:PORT",
-        help: "Where to listen; port 0 takes any free one",
+        help: "The address and port to listen on; port 0 takes any free port",
         value: Value::Other {
             set: |config, text| {
                 config.listen = addresses::listen(text)?;
@@ -50,23 +50,21 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.listen.to_string(),
         },
     },
-    file(
-        "api_keys_file",
-        "The keys of those who may call, see `singulate key new`; read again when it changes",
-        |config| &mut config.server.api_keys_file,
-    ),
+    file("api_keys_file", "The file of API keys, see `singulate key new`; read again when it changes", |config| {
+        &mut config.server.api_keys_file
+    }),
     Setting {
         name: "insecure",
         needed_by: NeededBy::Service,
         placeholder: "true|false",
-        help: "Serve without keys: everybody who reaches the service may use it",
+        help: "Serve without API keys: anybody who can reach the service may use it",
         value: Value::Switch { field: |config| &mut config.insecure },
     },
     Setting {
         name: "cors_origins",
         needed_by: NeededBy::Service,
         placeholder: "ORIGINS",
-        help: "Where pages may come from that call from a browser, such as https://cell.example.com; separated by commas",
+        help: "Origins whose pages may call from a browser, such as https://cell.example.com; separated by commas",
         value: Value::Other {
             set: |config, text| {
                 config.server.cors_origins = text.parse()?;
@@ -75,20 +73,20 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.server.cors_origins.to_string(),
         },
     },
-    file(
-        "tls_cert",
-        "The service's certificate with its chain, PEM; TLS is spoken then, and no plain HTTP",
-        |config| &mut config.server.tls.cert,
-    ),
-    file("tls_key", "The certificate's private key, PEM", |config| &mut config.server.tls.key),
-    file("tls_client_ca", "The authorities of clients, PEM; each then needs a certificate of theirs", |config| {
-        &mut config.server.tls.client_ca
+    file("tls_cert", "The service's certificate and its chain, PEM; the service then speaks TLS only", |config| {
+        &mut config.server.tls.cert
     }),
-    count("threads", 1, "Planning threads; one per core where nothing is said", |config| &mut config.server.threads),
-    count("queue", 0, "Requests that may wait for a planning thread; more are refused with 503", |config| {
+    file("tls_key", "The certificate's private key, PEM", |config| &mut config.server.tls.key),
+    file(
+        "tls_client_ca",
+        "The authorities that sign client certificates, PEM; every client then needs one",
+        |config| &mut config.server.tls.client_ca,
+    ),
+    count("threads", 1, "Planning threads; by default one per core", |config| &mut config.server.threads),
+    count("queue", 0, "The most requests that wait for a planning thread; more are refused with 503", |config| {
         &mut config.server.queue
     }),
-    count("max_connections", 1, "Connections at a time; more wait to be accepted", |config| {
+    count("max_connections", 1, "The most open connections; more wait to be accepted", |config| {
         &mut config.server.connections
     }),
     Setting {
@@ -102,12 +100,9 @@ pub static SETTINGS: &[Setting] = &[
         &mut config.server.header_timeout
     }),
     milliseconds("body_timeout_ms", 1, "How long a request's body may take", |config| &mut config.server.body_timeout),
-    milliseconds(
-        "write_timeout_ms",
-        1,
-        "How long a client may take nothing of an answer that waits for it",
-        |config| &mut config.server.write_timeout,
-    ),
+    milliseconds("write_timeout_ms", 1, "How long a client may stop reading its answer", |config| {
+        &mut config.server.write_timeout
+    }),
     Setting {
         name: "jobs_url",
         needed_by: NeededBy::Service,
@@ -121,33 +116,33 @@ pub static SETTINGS: &[Setting] = &[
             get: |config| config.server.jobs.url.clone(),
         },
     },
-    count("job_threads", 1, "Planning threads for jobs; one per core where nothing is said", |config| {
+    count("job_threads", 1, "Planning threads for jobs; by default one per core", |config| {
         &mut config.server.jobs.threads
     }),
-    count("max_queued_jobs", 0, "Jobs that may wait in the store; more are refused with 503", |config| {
+    count("max_queued_jobs", 0, "The most jobs that wait in the store; more are refused with 503", |config| {
         &mut config.server.jobs.max_queued
     }),
     // Below a second, jobs would be taken from live workers on a busy machine.
-    milliseconds("job_lease_ms", 1000, "For how long a worker that says nothing keeps its job", |config| {
+    milliseconds("job_lease_ms", 1000, "How long a silent worker keeps its job", |config| {
         &mut config.server.jobs.lease
     }),
-    milliseconds("job_ttl_ms", 1, "How long a job may wait, and for how long an ended one is kept", |config| {
+    milliseconds("job_ttl_ms", 1, "How long a job may wait, and how long an ended job is kept", |config| {
         &mut config.server.jobs.ttl
     }),
-    count("max_waiting", 0, "Clients that may wait for the ends of jobs at a time", |config| {
+    count("max_waiting", 0, "The most clients that wait for the end of a job at a time", |config| {
         &mut config.server.max_waiting
     }),
-    count("max_streams", 0, "Clients that may listen to the events of jobs at a time", |config| {
+    count("max_streams", 0, "The most clients that follow the events of a job at a time", |config| {
         &mut config.server.max_streams
     }),
-    milliseconds("drain_ms", 1, "How long what runs has to end once the service is asked to", |config| {
+    milliseconds("drain_ms", 1, "How long running work may take to end during a shutdown", |config| {
         &mut config.server.drain
     }),
     Setting {
         name: "callback_allow",
         needed_by: NeededBy::Service,
         placeholder: "HOSTS",
-        help: "Who may be told of a job's end: names, *.name, addresses, ranges; separated by commas",
+        help: "Hosts that callbacks may go to: names, *.name, addresses, ranges; separated by commas",
         value: Value::Other {
             set: |config, text| {
                 config.server.jobs.callback_allow = text.parse()?;
@@ -160,7 +155,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "callback_secret",
         needed_by: NeededBy::Service,
         placeholder: "SECRET",
-        help: "What callbacks are signed with; better set by the variable, which other users can't list",
+        help: "The secret that signs callbacks; better set by the variable, which other users can't read",
         value: Value::Other {
             set: |config, text| {
                 config.server.jobs.callback_secret = if text == "none" { None } else { Some(text.parse()?) };
@@ -173,7 +168,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "otlp_endpoint",
         needed_by: NeededBy::Service,
         placeholder: "URL|off",
-        help: "Where traces go: a collector of OTLP over HTTP, such as http://localhost:4318",
+        help: "The collector for traces, OTLP over HTTP, such as http://localhost:4318",
         value: Value::Other {
             set: |config, text| {
                 config.otlp_endpoint = if text == "off" { None } else { Some(text.parse()?) };
@@ -204,7 +199,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "overlap_tolerance",
         needed_by: NeededBy::Planning,
         placeholder: "METRES",
-        help: "How deep two discs may overlap and still pass as perception noise, in a scene that does not say",
+        help: "How deep two discs may overlap and still pass as perception noise, if the scene does not say",
         value: Value::Number {
             least: 0.0,
             most: 1e3,
@@ -215,21 +210,21 @@ pub static SETTINGS: &[Setting] = &[
         name: "max_overlap_tolerance",
         needed_by: NeededBy::Planning,
         placeholder: "METRES",
-        help: "The greatest `overlap_tolerance` that a scene may name; `--overlap-tolerance` where that is more",
+        help: "The greatest `overlap_tolerance` that a scene may name, or `--overlap-tolerance` if that is greater",
         value: Value::Number { least: 0.0, most: 1e3, field: |config| &mut config.server.limits.max_overlap_tolerance },
     },
     Setting {
         name: "raster_resolution",
         needed_by: NeededBy::Planning,
         placeholder: "METRES",
-        help: "The side of a pixel where a scene asks for `placement: raster`",
+        help: "The side of a pixel for scenes with `placement: raster`",
         value: Value::Number { least: 1e-6, most: 1e3, field: |config| &mut config.server.limits.raster_resolution },
     },
     Setting {
         name: "default_time_limit_ms",
         needed_by: NeededBy::Planning,
         placeholder: "MS",
-        help: "The time limit of a scene that names none",
+        help: "The time limit of a scene that does not name one",
         value: Value::Milliseconds { least: 1, field: |config| &mut config.server.limits.default_time_limit },
     },
     Setting {
@@ -243,7 +238,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "log",
         needed_by: NeededBy::Planning,
         placeholder: "FILTER",
-        help: "Which log lines go to stderr: off, error, warn, info, debug or trace, and levels for parts, such as info,singulate=debug",
+        help: "The level of log lines on stderr: off, error, warn, info, debug or trace; parts may have their own, such as info,singulate=debug",
         value: Value::Other {
             set: |config, text| {
                 telemetry::filter(text)?;
@@ -257,7 +252,7 @@ pub static SETTINGS: &[Setting] = &[
         name: "log_format",
         needed_by: NeededBy::Planning,
         placeholder: "text|json",
-        help: "How log lines are written",
+        help: "The format of log lines",
         value: Value::Other {
             set: |config, text| {
                 config.log_format = match text {

@@ -2,10 +2,10 @@
 
 use core::time::Duration;
 
-use super::error::{Cause, ExperimentError};
+use super::error::{EpisodeError, ExperimentError};
 use super::papers_cases::PapersCase;
 use super::papers_scene::{PapersScene, complete_base, papers_scene};
-use super::timed_search::{Ending, TimedSearch, timed_search};
+use super::timed_search::{SearchEnding, TimedSearch, timed_search};
 use super::workers::Patience;
 use singulate_planner::budget::{Budget, Clock};
 use singulate_planner::cost::Cost;
@@ -71,11 +71,11 @@ pub(super) fn episode(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> 
     }
     let statement = judged.statement();
     if !agree(swept_finger.ours.ending, statement) {
-        return Err(failed(Cause::Contradicted(swept_finger.ours.ending)));
+        return Err(failed(EpisodeError::Contradicted(swept_finger.ours.ending)));
     }
     // By the swept finger only checked plans count as ours.
     if statement.verdict == Some(Verdict::TimedOut) {
-        (swept_finger.ours.ending, swept_finger.ours.time) = (Ending::Late, patience.limit);
+        (swept_finger.ours.ending, swept_finger.ours.time) = (SearchEnding::Late, patience.limit);
     }
     Ok(Episode { sector, swept_finger, judged, planning })
 }
@@ -98,7 +98,7 @@ impl Episode {
     }
 
     /// Add the baseline's result for the same scene.
-    pub(super) fn add(&mut self, baseline: [TimedSearch; 2]) -> Result<(), Cause> {
+    pub(super) fn add(&mut self, baseline: [TimedSearch; 2]) -> Result<(), EpisodeError> {
         for (on_base, search) in [&mut self.sector, &mut self.swept_finger].into_iter().zip(baseline) {
             not_refuted(search.ending, on_base.ours.ending)?;
             on_base.baseline = Some(search);
@@ -108,36 +108,40 @@ impl Episode {
 }
 
 /// The planner's answer, and its time.
-pub(super) fn planned(scene: &Scene, methods: &Methods, patience: &Patience<'_>) -> Result<(Judged, Duration), Cause> {
+pub(super) fn planned(
+    scene: &Scene,
+    methods: &Methods,
+    patience: &Patience<'_>,
+) -> Result<(Judged, Duration), EpisodeError> {
     let watch = patience.watch();
     let budget = Budget::new(&watch, patience.limit);
-    let judged = plan_by(methods, scene, &Settings::default(), &budget, SILENT).map_err(Cause::Plan)?;
+    let judged = plan_by(methods, scene, &Settings::default(), &budget, SILENT).map_err(EpisodeError::Plan)?;
     Ok((judged, watch.elapsed()))
 }
 
 /// Fails if another search beats our proof: every search finds derivations, so the fault would be in our proof.
-fn not_refuted(ending: Ending, proven: Ending) -> Result<(), Cause> {
+fn not_refuted(ending: SearchEnding, proven: SearchEnding) -> Result<(), EpisodeError> {
     let refuted = match (ending, proven) {
-        (Ending::Sequence(found), Ending::Sequence(least)) => found < least,
-        (Ending::Sequence(_), Ending::Deadlock) => true,
+        (SearchEnding::Sequence(found), SearchEnding::Sequence(least)) => found < least,
+        (SearchEnding::Sequence(_), SearchEnding::Deadlock) => true,
         _ => false,
     };
-    if refuted { Err(Cause::Refuted { ending, proven }) } else { Ok(()) }
+    if refuted { Err(EpisodeError::Refuted { ending, proven }) } else { Ok(()) }
 }
 
 /// True if search and planner agree, as far as each got.
-fn agree(ours: Ending, stated: &Statement) -> bool {
+fn agree(ours: SearchEnding, stated: &Statement) -> bool {
     let at_least = |cost: Option<Cost>, least| cost.is_some_and(|cost| cost.get() >= least);
     let at_most = |bound: Option<Cost>, least| bound.is_some_and(|bound| bound.get() <= least);
     let (cost, bound) = (stated.cost, stated.lower_bound);
     match (ours, stated.verdict) {
         (_, None) => false,
-        (Ending::Late | Ending::TooLarge, _) | (_, Some(Verdict::TimedOut)) => true,
-        (Ending::Deadlock, verdict) => verdict == Some(Verdict::Deadlock),
-        (Ending::Sequence(least), Some(Verdict::Graspable)) => least == 0,
-        (Ending::Sequence(least), Some(Verdict::Relocate)) => at_least(cost, least) && at_most(bound, least),
-        (Ending::Sequence(least), Some(Verdict::NoSpace)) => at_most(bound, least),
-        (Ending::Sequence(_), Some(Verdict::Deadlock)) => false,
+        (SearchEnding::Late | SearchEnding::TooLarge, _) | (_, Some(Verdict::TimedOut)) => true,
+        (SearchEnding::Deadlock, verdict) => verdict == Some(Verdict::Deadlock),
+        (SearchEnding::Sequence(least), Some(Verdict::Graspable)) => least == 0,
+        (SearchEnding::Sequence(least), Some(Verdict::Relocate)) => at_least(cost, least) && at_most(bound, least),
+        (SearchEnding::Sequence(least), Some(Verdict::NoSpace)) => at_most(bound, least),
+        (SearchEnding::Sequence(_), Some(Verdict::Deadlock)) => false,
     }
 }
 
@@ -148,11 +152,11 @@ mod tests {
     #[test]
     fn a_shorter_sequence_or_one_in_spite_of_a_deadlock_refutes_our_proof() {
         let check = |other, ours, refuted| assert_eq!(not_refuted(other, ours).is_err(), refuted);
-        check(Ending::Sequence(2), Ending::Sequence(3), true);
-        check(Ending::Sequence(2), Ending::Deadlock, true);
-        check(Ending::Sequence(3), Ending::Sequence(3), false);
-        check(Ending::Deadlock, Ending::Sequence(3), false);
-        check(Ending::Sequence(2), Ending::Late, false);
+        check(SearchEnding::Sequence(2), SearchEnding::Sequence(3), true);
+        check(SearchEnding::Sequence(2), SearchEnding::Deadlock, true);
+        check(SearchEnding::Sequence(3), SearchEnding::Sequence(3), false);
+        check(SearchEnding::Deadlock, SearchEnding::Sequence(3), false);
+        check(SearchEnding::Sequence(2), SearchEnding::Late, false);
     }
 
     #[test]
@@ -160,12 +164,12 @@ mod tests {
         let late = Statement::timed_out();
         let stated = |verdict| Statement { verdict: Some(verdict), ..Statement::default() };
         let deadlock = stated(Verdict::Deadlock);
-        assert!(agree(Ending::Sequence(1), &late) && agree(Ending::Late, &deadlock));
-        assert!(!agree(Ending::Sequence(1), &deadlock));
-        assert!(agree(Ending::Deadlock, &deadlock));
-        assert!(!agree(Ending::Deadlock, &stated(Verdict::NoSpace)));
+        assert!(agree(SearchEnding::Sequence(1), &late) && agree(SearchEnding::Late, &deadlock));
+        assert!(!agree(SearchEnding::Sequence(1), &deadlock));
+        assert!(agree(SearchEnding::Deadlock, &deadlock));
+        assert!(!agree(SearchEnding::Deadlock, &stated(Verdict::NoSpace)));
         // Without a bound there is nothing to agree with.
-        assert!(!agree(Ending::Sequence(1), &stated(Verdict::NoSpace)));
-        assert!(!agree(Ending::Sequence(1), &Statement::default()));
+        assert!(!agree(SearchEnding::Sequence(1), &stated(Verdict::NoSpace)));
+        assert!(!agree(SearchEnding::Sequence(1), &Statement::default()));
     }
 }

@@ -1,7 +1,7 @@
 //! Why an experiment has no result.
 
 use super::recipe::GenerateError;
-use super::timed_search::Ending;
+use super::timed_search::SearchEnding;
 use singulate_planner::knowledge::NoBase;
 use singulate_planner::plan::PlanError;
 
@@ -14,12 +14,12 @@ pub struct ExperimentError {
     /// The seed of the scene.
     pub seed: u64,
     /// The cause.
-    pub cause: Cause,
+    pub cause: EpisodeError,
 }
 
 /// Why an episode failed.
 #[derive(Debug, thiserror::Error)]
-pub enum Cause {
+pub enum EpisodeError {
     /// There is no scene.
     #[error("{0}")]
     Scene(GenerateError),
@@ -33,11 +33,11 @@ pub enum Cause {
     #[error("a search ends with {ending:?} where ours proves {proven:?}")]
     Refuted {
         /// The other search's result.
-        ending: Ending,
+        ending: SearchEnding,
         /// Our proven result.
-        proven: Ending,
+        proven: SearchEnding,
     },
     /// Our search and our planner, which build on the same knowledge, contradict each other: a bug of ours.
     #[error("the planner contradicts the search, which ends with {0:?}")]
-    Contradicted(Ending),
+    Contradicted(SearchEnding),
 }

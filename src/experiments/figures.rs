@@ -1,8 +1,8 @@
 //! Sums of episodes.
 
 use super::episode::{Episode, OnBase};
-use super::sample::{Interval, Spread};
-use super::timed_search::{Ending, TimedSearch};
+use super::sample::{ConfidenceInterval, Spread};
+use super::timed_search::{SearchEnding, TimedSearch};
 use singulate_planner::paper::{GraspModelName, SearchMethod};
 use singulate_planner::statement::Verdict;
 
@@ -85,27 +85,29 @@ impl ModelFigures {
 
 impl MethodFigures {
     fn new<'e>(method: SearchMethod, episodes: impl Iterator<Item = &'e OnBase>) -> Self {
-        let searches: Vec<(&TimedSearch, Ending)> =
+        let searches: Vec<(&TimedSearch, SearchEnding)> =
             episodes.filter_map(|on_base| Some((on_base.search(method)?, on_base.ours.ending))).collect();
-        let count = |of: &dyn Fn(Ending, Ending) -> bool| {
+        let count = |of: &dyn Fn(SearchEnding, SearchEnding) -> bool| {
             searches.iter().filter(|(search, ours)| of(search.ending, *ours)).count()
         };
         let lengths = searches.iter().filter_map(|(search, _)| match search.ending {
-            Ending::Sequence(length) => Some(length as f64),
+            SearchEnding::Sequence(length) => Some(length as f64),
             _ => None,
         });
-        let deadlocks = count(&|ending, _| ending == Ending::Deadlock);
+        let deadlocks = count(&|ending, _| ending == SearchEnding::Deadlock);
         Self {
             method,
             episodes: searches.len(),
             deadlocks,
-            successes: deadlocks + count(&|ending, _| matches!(ending, Ending::Sequence(_))),
-            graspable: count(&|ending, _| ending == Ending::Sequence(0)),
-            late: count(&|ending, _| ending == Ending::Late),
-            too_large: count(&|ending, _| ending == Ending::TooLarge),
-            false_deadlocks: count(&|ending, ours| ending == Ending::Deadlock && matches!(ours, Ending::Sequence(_))),
+            successes: deadlocks + count(&|ending, _| matches!(ending, SearchEnding::Sequence(_))),
+            graspable: count(&|ending, _| ending == SearchEnding::Sequence(0)),
+            late: count(&|ending, _| ending == SearchEnding::Late),
+            too_large: count(&|ending, _| ending == SearchEnding::TooLarge),
+            false_deadlocks: count(&|ending, ours| {
+                ending == SearchEnding::Deadlock && matches!(ours, SearchEnding::Sequence(_))
+            }),
             not_optimal: count(&|ending, ours| match (ending, ours) {
-                (Ending::Sequence(found), Ending::Sequence(least)) => found > least,
+                (SearchEnding::Sequence(found), SearchEnding::Sequence(least)) => found > least,
                 _ => false,
             }),
             search_s: Spread::of_times(searches.iter().map(|(search, _)| search.time)),
@@ -114,8 +116,8 @@ impl MethodFigures {
     }
 
     /// The 95 % interval of the deadlock rate.
-    pub fn deadlock_interval(&self) -> Interval {
-        Interval::wilson(self.deadlocks, self.episodes)
+    pub fn deadlock_interval(&self) -> ConfidenceInterval {
+        ConfidenceInterval::wilson(self.deadlocks, self.episodes)
     }
 }
 
@@ -148,7 +150,7 @@ mod tests {
 
     #[test]
     fn wrong_answers_are_counted_against_our_proof_and_only_there() {
-        use Ending::{Deadlock, Late, Sequence, TooLarge};
+        use SearchEnding::{Deadlock, Late, Sequence, TooLarge};
         let endings = [
             [Sequence(3), Sequence(3)],
             [Sequence(4), Sequence(3)],

@@ -17,15 +17,15 @@ mod workers;
 
 use core::time::Duration;
 
-pub use error::{Cause, ExperimentError};
+pub use error::{EpisodeError, ExperimentError};
 pub use figures::{MethodFigures, ModelFigures, PlanFigures};
 pub use generate::generate;
 pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, PrintedReposition, TABLE1_EPISODES, TABLE2_EPISODES};
 pub use recipe::{Arrangement, GenerateError, Recipe};
-pub use sample::{Interval, Spread};
+pub use sample::{ConfidenceInterval, Spread};
 pub use table1::{Table1Column, table1};
 pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
-pub use timed_search::Ending;
+pub use timed_search::SearchEnding;
 pub use varied::varied;
 
 /// The settings of a table.

@@ -1,7 +1,7 @@
 //! The cases of the paper's section V, with the figures of its Tables I and II.
 
 use super::recipe::Recipe;
-use super::sample::Interval;
+use super::sample::ConfidenceInterval;
 
 /// The episodes in each column of Table I.
 pub const TABLE1_EPISODES: usize = 20;
@@ -89,8 +89,8 @@ impl Printed {
     }
 
     /// The 95 % interval of the deadlock rate.
-    pub fn deadlock_interval(&self) -> Interval {
-        Interval::wilson(self.deadlocks, TABLE1_EPISODES)
+    pub fn deadlock_interval(&self) -> ConfidenceInterval {
+        ConfidenceInterval::wilson(self.deadlocks, TABLE1_EPISODES)
     }
 
     /// The success rate, 0 to 1.

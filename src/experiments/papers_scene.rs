@@ -3,7 +3,7 @@
 use core::cmp::Reverse;
 use core::time::Duration;
 
-use super::error::{Cause, ExperimentError};
+use super::error::{EpisodeError, ExperimentError};
 use super::generate::generate;
 use super::papers_cases::PapersCase;
 use super::recipe::GenerateError;
@@ -38,7 +38,7 @@ pub(super) fn papers_scene(
     seed: u64,
     patience: &Patience<'_>,
 ) -> Result<PapersScene, ExperimentError> {
-    let no_scene = |error| ExperimentError { objects: case.objects, seed, cause: Cause::Scene(error) };
+    let no_scene = |error| ExperimentError { objects: case.objects, seed, cause: EpisodeError::Scene(error) };
     let draft = generate(&case.recipe(), seed).map_err(no_scene)?;
     let (scene, _) =
         Scene::new(draft, &SceneLimits::default()).map_err(|findings| no_scene(GenerateError::Scene(findings)))?;
@@ -60,7 +60,7 @@ pub(super) fn complete_base(
     complete(scene, model.model(), &Budget::new(watch, Duration::MAX)).map_err(|error| ExperimentError {
         objects: case.objects,
         seed,
-        cause: Cause::Knowledge(error),
+        cause: EpisodeError::Knowledge(error),
     })
 }
 

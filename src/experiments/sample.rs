@@ -31,14 +31,14 @@ const Z: f64 = 1.959_963_984_540_054;
 
 /// An interval of rates, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
+pub struct ConfidenceInterval {
     /// Its lower end.
     pub low: f64,
     /// Its upper end.
     pub high: f64,
 }
 
-impl Interval {
+impl ConfidenceInterval {
     /// The 95 % score interval of Wilson (1927) for the rate of `hits` in `trials`. Unlike the usual ± it is meaningful
     /// for 0 in 20, too. Without trials it is [0, 1].
     pub fn wilson(hits: usize, trials: usize) -> Self {
@@ -71,7 +71,7 @@ mod tests {
     }
 
     fn check(hits: usize, trials: usize, low: f64, high: f64) {
-        let interval = Interval::wilson(hits, trials);
+        let interval = ConfidenceInterval::wilson(hits, trials);
         assert!((interval.low - low).abs() < 5e-5 && (interval.high - high).abs() < 5e-5, "{hits} {interval:?}");
     }
 
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn intervals_overlap_in_a_common_rate() {
-        let interval = |low, high| Interval { low, high };
+        let interval = |low, high| ConfidenceInterval { low, high };
         assert!(interval(0.1, 0.3).overlaps(&interval(0.3, 0.4)) && interval(0.3, 0.4).overlaps(&interval(0.1, 0.3)));
         assert!(interval(0.1, 0.9).overlaps(&interval(0.3, 0.4)) && !interval(0.1, 0.2).overlaps(&interval(0.3, 0.4)));
     }

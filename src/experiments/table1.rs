@@ -6,7 +6,7 @@ use super::error::ExperimentError;
 use super::figures::{ModelFigures, PlanFigures};
 use super::papers_cases::{PAPERS_CASES, PapersCase};
 use super::papers_scene::seed_of;
-use super::timed_search::Ending;
+use super::timed_search::SearchEnding;
 use super::workers::{Patience, in_parallel};
 use singulate_planner::paper::{GraspModelName, SearchMethod};
 use singulate_planner::statement::Verdict;
@@ -62,7 +62,7 @@ pub fn table1(
 
 impl Table1Column {
     fn new(case: PapersCase, episodes: &[Episode]) -> Self {
-        let extra = episodes.iter().filter(|episode| episode.sector.ours.ending == Ending::Deadlock);
+        let extra = episodes.iter().filter(|episode| episode.sector.ours.ending == SearchEnding::Deadlock);
         let extra = extra.filter(|episode| episode.statement().verdict != Some(Verdict::Deadlock));
         Self {
             case,
@@ -107,13 +107,13 @@ mod tests {
 
     const SECOND: Duration = Duration::from_secs(1);
 
-    fn on_base(ending: Ending) -> OnBase {
+    fn on_base(ending: SearchEnding) -> OnBase {
         let search = TimedSearch { ending, time: SECOND };
         OnBase { knowledge: SECOND, baseline: None, lobs: search, ours: search }
     }
 
     /// LOBS and ours agree on both bases.
-    fn agreed(sector: Ending, swept_finger: Ending, verdict: Verdict) -> Episode {
+    fn agreed(sector: SearchEnding, swept_finger: SearchEnding, verdict: Verdict) -> Episode {
         let statement = Statement { verdict: Some(verdict), ..Statement::default() };
         let judged = Answer { statement, statistics: Statistics::default() }.into();
         let [sector, swept_finger] = [sector, swept_finger].map(on_base);
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn an_extra_plan_is_one_where_only_the_sector_model_says_deadlock() {
-        use Ending::{Deadlock, Sequence};
+        use SearchEnding::{Deadlock, Sequence};
         let mut episodes = vec![
             agreed(Deadlock, Deadlock, Verdict::Deadlock),
             agreed(Deadlock, Sequence(2), Verdict::NoSpace),
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn a_column_disagrees_where_the_intervals_do_not_overlap() {
         let disagrees = |deadlocks: usize| {
-            let ending = |at| if at < deadlocks { Ending::Deadlock } else { Ending::Sequence(1) };
+            let ending = |at| if at < deadlocks { SearchEnding::Deadlock } else { SearchEnding::Sequence(1) };
             let episode = |at| agreed(ending(at), ending(at), Verdict::Deadlock);
             Table1Column::new(PAPERS_CASES[0], &(0..400).map(episode).collect::<Vec<_>>()).disagrees()
         };
@@ -156,9 +156,9 @@ mod tests {
         let mut episode = episode(&PAPERS_CASES[3], seed, &patience).unwrap();
         episode.add(baseline(&PAPERS_CASES[3], seed, &patience).unwrap()).unwrap();
         let ending = |method| episode.sector.search(method).unwrap().ending;
-        assert_eq!(ending(SearchMethod::ForwardAstar), Ending::Sequence(7));
-        assert_eq!(ending(SearchMethod::Lobs), Ending::Sequence(8));
-        assert_eq!(ending(SearchMethod::Landmarks), Ending::Sequence(7));
+        assert_eq!(ending(SearchMethod::ForwardAstar), SearchEnding::Sequence(7));
+        assert_eq!(ending(SearchMethod::Lobs), SearchEnding::Sequence(8));
+        assert_eq!(ending(SearchMethod::Landmarks), SearchEnding::Sequence(7));
         let column = Table1Column::new(PAPERS_CASES[3], &[episode]);
         let not_optimal = |method| column.sector.method(method).not_optimal;
         assert_eq!((not_optimal(SearchMethod::Lobs), not_optimal(SearchMethod::ForwardAstar)), (1, 0));

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 
 use super::ExperimentSettings;
 use super::episode::planned;
-use super::error::{Cause, ExperimentError};
+use super::error::{EpisodeError, ExperimentError};
 use super::papers_cases::{PAPERS_CASES, PapersCase};
 use super::papers_scene::{papers_scene, seed_of};
 use super::sample::Spread;
-use super::timed_search::{Ending, timed_search};
+use super::timed_search::{SearchEnding, timed_search};
 use super::workers::{Patience, in_parallel};
 use singulate_planner::check::FaultCode;
 use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster};
@@ -142,7 +142,7 @@ fn draw(
         let seed = seed_of(settings.seed, column, drawn.count);
         let papers = papers_scene(case, seed, patience)?;
         let search = timed_search(SearchMethod::Lobs, &papers.sector, papers.scene.target(), patience);
-        if matches!(search.ending, Ending::Sequence(_)) {
+        if matches!(search.ending, SearchEnding::Sequence(_)) {
             drawn.seeds.push(seed);
         }
         drawn.count += 1;
@@ -158,7 +158,7 @@ fn place(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Vec<Pl
     placed.map_err(|cause| ExperimentError { objects: case.objects, seed, cause })
 }
 
-fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) -> Result<Placed, Cause> {
+fn place_by(scene: &Scene, placement: Repositioning, patience: &Patience<'_>) -> Result<Placed, EpisodeError> {
     let method = placement.method(scene);
     let methods = Methods { grasp_model: GraspModelName::Sector, search: SearchMethod::Lobs, placement: method };
     let (judged, _) = planned(scene, &methods, patience)?;

@@ -15,7 +15,7 @@ const LIMITS: SearchLimits = SearchLimits { lobs_members: 5_000_000, astar_state
 
 /// The end of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum SearchEnding {
     /// A sequence of this many relocations, without the target.
     Sequence(u64),
     /// A deadlock.
@@ -29,7 +29,7 @@ pub enum Ending {
 /// One search with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TimedSearch {
-    pub(super) ending: Ending,
+    pub(super) ending: SearchEnding,
     /// The time limit for a search that did not finish, since with more memory it would have gone on.
     pub(super) time: Duration,
 }
@@ -44,15 +44,15 @@ pub(super) fn timed_search(
     let watch = patience.watch();
     let budget = Budget::new(&watch, patience.limit);
     let ending = match seek(method, base, target, &LIMITS, &budget, SILENT) {
-        Sought::Least(known) => Ending::Sequence(known.bound.get()),
-        Sought::Sequence(derivation) => Ending::Sequence(derivation.cost().get()),
-        Sought::Nothing => Ending::Deadlock,
-        Sought::Best(_) | Sought::TooLate => Ending::Late,
-        Sought::TooLarge => Ending::TooLarge,
+        Sought::Least(known) => SearchEnding::Sequence(known.bound.get()),
+        Sought::Sequence(derivation) => SearchEnding::Sequence(derivation.cost().get()),
+        Sought::Nothing => SearchEnding::Deadlock,
+        Sought::Best(_) | Sought::TooLate => SearchEnding::Late,
+        Sought::TooLarge => SearchEnding::TooLarge,
     };
     let time = match ending {
-        Ending::Sequence(_) | Ending::Deadlock => watch.elapsed(),
-        Ending::Late | Ending::TooLarge => patience.limit,
+        SearchEnding::Sequence(_) | SearchEnding::Deadlock => watch.elapsed(),
+        SearchEnding::Late | SearchEnding::TooLarge => patience.limit,
     };
     TimedSearch { ending, time }
 }

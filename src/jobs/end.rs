@@ -2,7 +2,7 @@
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
-use crate::wire::{AnswerBody, Cause, Problem, ProblemKind, RawJson, VerdictWord};
+use crate::wire::{AnswerBody, LoggedProblem, Problem, ProblemKind, RawJson, VerdictWord};
 
 /// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,7 +17,7 @@ impl End {
     /// The end of a job that has lost as many workers as allowed.
     pub(super) fn poisoned() -> Self {
         let detail =
-            format!("{MAX_ATTEMPTS} workers began this job and were not heard of again; it is not begun once more");
+            format!("{MAX_ATTEMPTS} workers have been lost while they planned this job; it is not begun again");
         Self::with(&Problem::new(ProblemKind::Poison, detail))
     }
 
@@ -30,7 +30,7 @@ impl End {
 pub(super) struct Concluded {
     pub(super) end: End,
     pub(super) verdict: Option<&'static str>,
-    pub(super) cause: Option<Cause>,
+    pub(super) cause: Option<LoggedProblem>,
 }
 
 impl Concluded {

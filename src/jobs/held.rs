@@ -23,7 +23,7 @@ const NOTE_AGAIN: Duration = Duration::from_secs(1);
 const FIRST_LOOK: Duration = Duration::from_millis(10);
 
 /// A claimed job.
-pub(super) struct Held {
+pub(super) struct HeldJob {
     store: Arc<dyn Store>,
     claim: Claim,
     lease: Duration,
@@ -31,7 +31,7 @@ pub(super) struct Held {
     noted: Mutex<Option<Incumbent>>,
 }
 
-impl Held {
+impl HeldJob {
     pub(super) fn new(store: Arc<dyn Store>, claim: Claim, lease: Duration) -> Self {
         Self { store, claim, lease, noted: Mutex::default() }
     }
@@ -186,7 +186,7 @@ mod tests {
             incumbent: &mut watch::Receiver<Option<Incumbent>>,
             work: impl Future<Output = ()>,
         ) {
-            let held = Held::new(Arc::clone(&self.store), self.claim, LEASE);
+            let held = HeldJob::new(Arc::clone(&self.store), self.claim, LEASE);
             let keeping = held.keep(incumbent, || self.heard.notify_one());
             tokio::select! {
                 () = keeping => panic!("the lease is lost"),

@@ -147,11 +147,11 @@ pub struct Job {
     pub scene_id: Option<String>,
     /// The digest of the scene; hexadecimal.
     pub scene_sha256: String,
-    /// When it was accepted.
+    /// When the job was accepted.
     pub created_at: Timestamp,
-    /// When its last attempt began.
+    /// When the last attempt began.
     pub started_at: Option<Timestamp>,
-    /// When it ended.
+    /// When the job ended.
     pub finished_at: Option<Timestamp>,
     /// When it expires if it has not begun; once it has ended, when it is deleted.
     pub expires_at: Timestamp,

@@ -13,7 +13,7 @@ use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
 use super::end::End;
-use super::held::Held;
+use super::held::HeldJob;
 use super::job::JobId;
 use super::settings::JobSettings;
 use super::store::{Claimed, Store};
@@ -140,7 +140,7 @@ impl Runner {
         self.tools.metrics.attempt(claimed.attempt);
         self.tools.metrics.waited(Queue::Job, Timestamp::now().since(claimed.created_at));
         let (watcher, mut incumbent) = watch::channel(None);
-        let held = Held::new(Arc::clone(&self.store), claim, self.lease);
+        let held = HeldJob::new(Arc::clone(&self.store), claim, self.lease);
         let Ok(work) = Work::begin(mem::take(&mut claimed.body), &self.pool, &self.tools, self.limits, watcher) else {
             return held.hand_back().await;
         };

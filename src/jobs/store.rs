@@ -70,7 +70,7 @@ pub struct Claimed {
     pub body: Vec<u8>,
     /// The number of the attempt, from 1.
     pub attempt: u32,
-    /// When it was accepted.
+    /// When the job was accepted.
     pub created_at: Timestamp,
 }
 
@@ -90,7 +90,7 @@ pub enum Renewal {
 pub enum Cancellation {
     /// There is no such job.
     Unknown,
-    /// It had ended before.
+    /// The job had already ended.
     Finished,
     /// It is cancelled, or will be once its worker has delivered the best so far.
     Accepted(Box<Job>),

@@ -57,7 +57,7 @@ fn tell(swept: &Swept, metrics: &Metrics) {
         tracing::warn!(%job, "job lost its worker and is queued again");
     }
     for job in &swept.poisoned {
-        tracing::error!(%job, "job ended three workers and is not tried again");
+        tracing::error!(%job, "job has lost three workers and is not tried again");
     }
     let ended =
         [(&swept.poisoned, Ended::Failed), (&swept.cancelled, Ended::Cancelled), (&swept.expired, Ended::Expired)];

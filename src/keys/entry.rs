@@ -109,7 +109,7 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
         return Err(format!("a name is 1 to {MAX_NAME} printable ASCII characters without spaces"));
     }
     if name == ANONYMOUS {
-        return Err(format!("the name {ANONYMOUS} belongs to those who came without a key"));
+        return Err(format!("the name {ANONYMOUS} is reserved for calls without a key"));
     }
     if name.starts_with(PREFIX) {
         return Err("this is a key, not a name".to_owned());
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_be_a_key_is_left_out_of_a_text() {
+    fn text_that_may_be_a_key_is_cut_from_a_path() {
         let key = "sgl_47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU";
         for (text, kept) in [
             ("/v1/plans", "/v1/plans"),

@@ -17,7 +17,7 @@ use super::rights::{Rate, Scopes};
 const MAX_KEYS: usize = 1000;
 
 /// The most faults reported.
-const MAX_FAULTS: usize = 20;
+const MAX_LISTED: usize = 20;
 
 const FIELDS: [&str; 4] = ["name", "sha256", "scopes", "rate"];
 
@@ -79,7 +79,7 @@ impl Reader<'_> {
     }
 
     fn fault(&mut self, at: usize, what: &str) {
-        if self.faults.len() < MAX_FAULTS {
+        if self.faults.len() < MAX_LISTED {
             self.faults.push(format!("line {}: {what}", self.line(at)));
         }
     }
@@ -235,7 +235,7 @@ mod tests {
         let many = |count: usize| (0..count).map(|at| entry("a", &at.to_string())).collect::<String>();
         assert_eq!(faults(&many(MAX_KEYS)), [""; 0]);
         assert_eq!(faults(&many(MAX_KEYS + 1)), ["line 1: more than 1000 keys"]);
-        assert_eq!(faults(&"[[key]]\n".repeat(MAX_KEYS)).len(), MAX_FAULTS);
+        assert_eq!(faults(&"[[key]]\n".repeat(MAX_KEYS)).len(), MAX_LISTED);
         assert_eq!(faults(&entry("a", "")), ["line 3: key 1: this is the sha256 of no text at all"]);
         assert_eq!(read(b"\xff").err().unwrap(), ["not UTF-8"]);
     }

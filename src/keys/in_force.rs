@@ -23,12 +23,12 @@ const MAX_KEY: usize = 256;
 /// The keys of a file, from its last valid version.
 pub struct Keys {
     path: PathBuf,
-    in_force: RwLock<Arc<[Arc<Held>]>>,
+    in_force: RwLock<Arc<[Arc<KeyInForce>]>>,
     files: Mutex<WatchedFiles>,
 }
 
 /// A key in force, with its usage.
-struct Held {
+struct KeyInForce {
     entry: KeyEntry,
     spent: Arc<Spent>,
     /// Cancelled once the key is removed, or its owner or scopes change.
@@ -37,7 +37,7 @@ struct Held {
 
 /// A presented key that is in force.
 #[derive(Clone)]
-pub struct Found(Arc<Held>);
+pub struct FoundKey(Arc<KeyInForce>);
 
 impl fmt::Debug for Keys {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -53,12 +53,12 @@ impl Keys {
     pub fn open(path: &Path) -> Result<Self, KeysError> {
         let files = WatchedFiles::read(vec![path.to_owned()]).map_err(|error| KeysError(vec![error.to_string()]))?;
         let entries = read(content(&files)).map_err(|faults| KeysError::faults(path, &faults))?;
-        let in_force = RwLock::new(entries.into_iter().map(Held::unused).collect());
+        let in_force = RwLock::new(entries.into_iter().map(KeyInForce::unused).collect());
         Ok(Self { path: path.to_owned(), in_force, files: Mutex::new(files) })
     }
 
     /// The key with this text, in constant time: all keys are compared, so timing reveals none of them.
-    pub fn find(&self, text: &[u8]) -> Option<Found> {
+    pub fn find(&self, text: &[u8]) -> Option<FoundKey> {
         if text.len() > MAX_KEY {
             return None;
         }
@@ -69,7 +69,7 @@ impl Keys {
         for (position, held) in (0..).zip(in_force.iter()) {
             at.conditional_assign(&position, held.entry.digest.ct_eq(&presented));
         }
-        in_force.get(usize::try_from(at).ok()?).map(|held| Found(Arc::clone(held)))
+        in_force.get(usize::try_from(at).ok()?).map(|held| FoundKey(Arc::clone(held)))
     }
 
     /// Reload the keys whenever the file changes; never ends.
@@ -82,12 +82,12 @@ impl Keys {
             let read = spawn_blocking(move || read(&text)).await;
             let read = read.unwrap_or_else(|_| Err(vec!["the file could not be read".to_owned()]));
             if let Err(faults) = self.take_over(read) {
-                tracing::error!(%faults, "the keys of before still hold");
+                tracing::error!(%faults, "the keys file is faulty; the previous keys stay in use");
             }
         }
     }
 
-    fn in_force(&self) -> Arc<[Arc<Held>]> {
+    fn in_force(&self) -> Arc<[Arc<KeyInForce>]> {
         // The list is replaced as a whole, so a panic can't leave half of one.
         Arc::clone(&self.in_force.read().unwrap_or_else(PoisonError::into_inner))
     }
@@ -102,9 +102,9 @@ impl Keys {
             let spent = held.map(|held| Arc::clone(&held.spent)).unwrap_or_default();
             let same = held.filter(|held| held.entry.is_same(&entry));
             let end = same.and_then(|_| gone.remove(&entry.digest)).map(|held| held.gone.clone()).unwrap_or_default();
-            Arc::new(Held { entry, spent, gone: end })
+            Arc::new(KeyInForce { entry, spent, gone: end })
         };
-        let after: Arc<[Arc<Held>]> = entries.into_iter().map(after).collect();
+        let after: Arc<[Arc<KeyInForce>]> = entries.into_iter().map(after).collect();
         tracing::info!(path = %self.path.display(), keys = after.len(), "the keys were replaced");
         *self.in_force.write().unwrap_or_else(PoisonError::into_inner) = after;
         gone.into_values().for_each(|held| held.gone.cancel());
@@ -116,14 +116,14 @@ fn content(files: &WatchedFiles) -> &[u8] {
     files.contents().first().map_or(&[], Vec::as_slice)
 }
 
-impl Held {
+impl KeyInForce {
     /// A key without usage.
     fn unused(entry: KeyEntry) -> Arc<Self> {
         Arc::new(Self { entry, spent: Arc::default(), gone: CancellationToken::new() })
     }
 }
 
-impl Found {
+impl FoundKey {
     /// The owner's name.
     pub fn name(&self) -> &str {
         &self.0.entry.name
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_list_replaces_the_old_one_and_what_was_used_stays_used() {
+    fn a_new_list_replaces_the_old_one_but_keeps_the_used_rates() {
         let [stays, faster, goes, changes] = ["1", "1", "1", "1"].map(|rate| fresh("a", "plan", rate));
         let keys = keys("replaced", &[&stays, &faster, &goes, &changes]);
         let find = |key: &FreshKey| keys.find(key.text().as_bytes());

@@ -10,5 +10,5 @@ mod rights;
 
 pub use entry::{ANONYMOUS, FreshKey, without_keys};
 pub use file::{KeysError, append};
-pub use in_force::{Found, Keys};
+pub use in_force::{FoundKey, Keys};
 pub use rights::{Rate, Scope, Scopes};

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_no_rate() {
+    fn a_rate_out_of_range_is_refused() {
         for text in ["", "0", "-1", "nan", "inf", "1e7", "fast"] {
             assert!(text.parse::<Rate>().is_err(), "{text}");
         }

@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_filter_is_told_with_the_levels_that_there_are() {
+    fn an_invalid_log_filter_is_refused_with_the_known_levels() {
         for text in
             ["loud", "", "info,", "verbose,singulate=debug", "singulate", "singulate=loud", "singulate=", "3", "a b=c"]
         {

@@ -112,7 +112,7 @@ impl<E> Telling<E> {
         let mut complained = self.complained.lock().unwrap_or_else(PoisonError::into_inner);
         if complained.is_none_or(|last| last.elapsed() >= COMPLAINT_PAUSE) {
             *complained = Some(Instant::now());
-            tracing::warn!(%error, "spans were not delivered; the next failure is told in a minute");
+            tracing::warn!(%error, "spans were not delivered; further failures are logged at most once a minute");
         }
     }
 }
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_failing_collector_is_told_once_in_a_while() {
+    async fn a_failing_collector_is_logged_once_a_minute() {
         let exporter = Telling { exporter: Failing, complained: Mutex::default() };
         let complained = || *exporter.complained.lock().unwrap();
         assert!(exporter.export(Vec::new()).await.is_err());

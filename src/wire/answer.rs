@@ -18,57 +18,57 @@ use singulate_planner::statement::{Deadlock, Verdict};
 /// The answer to a planning request. A client must refuse a verdict that it doesn't know.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct AnswerBody<'a> {
-    /// What was found.
+    /// The outcome of planning.
     #[schema(value_type = VerdictWord, required = true)]
     pub verdict: Option<VerdictWord>,
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
     pub scene_id: Option<&'a str>,
-    /// The id of the object that is wanted.
+    /// The id of the object to grasp.
     #[schema(example = "plate-1")]
     pub target: &'a str,
-    /// The plan, in order of execution; empty where there is none or none is needed.
+    /// The plan, in order of execution. Empty if there is no plan or no relocation is needed.
     #[schema(example = json!([{
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
     pub relocations: Vec<RelocationBody<'a>>,
-    /// How the target is grasped in the end; null where there is no plan.
+    /// The grasp of the target after all relocations. Null if there is no plan.
     #[schema(required = true)]
     pub target_grasp: Option<GraspBody>,
-    /// The count of relocations; null where there is no plan.
+    /// The number of relocations. Null if there is no plan.
     #[schema(value_type = Option<usize>, required = true, example = 1)]
     pub cost: Option<u64>,
-    /// No plan has fewer relocations, proven; null for a deadlock, and where one of the paper's methods was asked for and
-    /// nothing is proven.
+    /// The proven lower bound: no plan has fewer relocations. Null for a deadlock. With a method of the paper it is
+    /// also null if nothing is proven.
     #[schema(value_type = Option<usize>, required = true, example = 1)]
     pub lower_bound: Option<u64>,
-    /// True if no plan has fewer relocations than this one; null where there is no plan that passes its check, or nothing
-    /// is proven.
+    /// True if no plan has fewer relocations than this one. Null if no plan passes its check or no bound is proven.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
-    /// The proof of the bound: of each set of ids every plan moves at least one. Null where `lower_bound` is.
+    /// The proof of the bound: every plan moves at least one object of each set. Null if `lower_bound` is null.
     #[schema(required = true, example = json!([["plate-2", "plate-5"]]))]
     pub landmarks: Option<&'a [Vec<String>]>,
-    /// Why nothing frees the target; null for any other verdict, and for an unproven deadlock of the paper's methods.
+    /// The proof that no sequence of pick-and-place frees the target. Null for any other verdict. With a method of the
+    /// paper it is also null if the deadlock is not proven.
     #[schema(required = true)]
     pub deadlock: Option<DeadlockBody<'a>>,
-    /// For `no_space` and `timed_out` the ids of the best known derivation, in order; null otherwise or where none is
-    /// known.
+    /// For `no_space` and `timed_out`: objects that would free the target, moved in this order, if there were places
+    /// for them. Null for other verdicts, or if none are known.
     #[schema(required = true, example = json!(["plate-2"]))]
     pub needed: Option<&'a [String]>,
-    /// What is worth knowing about the scene; for the paper's methods also what our own have against the answer.
+    /// Warnings about the scene. With a method of the paper also the faults that our own methods find in the answer.
     #[schema(example = json!([{
         "code": "overlap",
         "pointer": "/objects/2",
         "detail": "overlaps 'plate-1' by 0.000400 m (tolerance 0.001 m)"
     }]))]
     pub warnings: Vec<WarningItem>,
-    /// How long each phase took; differs from run to run.
+    /// How long each phase took. It differs from run to run.
     pub statistics: StatisticsBody,
 }
 
-/// What was found.
+/// The outcome of planning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "relocate")]
@@ -86,13 +86,13 @@ pub enum VerdictWord {
     TimedOut,
 }
 
-/// Objects that hold each other: at every yaw of every movable one some other of them blocks.
+/// Objects that lock each other: at every yaw of each movable one, another of them blocks a finger.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct DeadlockBody<'a> {
-    /// The ids of the greatest lock, the target among them; fixed objects where they block a member.
+    /// The ids of the greatest lock. It holds the target, and fixed objects that block a member.
     #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
     pub blocked: &'a [String],
-    /// The ids of a least lock within it: take any one away, and the rest is no lock.
+    /// The ids of a minimal lock within `blocked`: without any one of them the rest is no lock.
     #[schema(example = json!(["plate-1", "vase"]))]
     pub core: &'a [String],
 }
@@ -109,7 +109,7 @@ pub struct StatisticsBody {
     /// New places, ms.
     #[schema(example = 0.2)]
     pub placement_ms: f64,
-    /// The independent check, ms; for the paper's methods our own search too, which judges them.
+    /// The independent check, ms. With a method of the paper also our own search, which judges its answer.
     #[schema(example = 0.02)]
     pub check_ms: f64,
 }

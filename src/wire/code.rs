@@ -8,7 +8,8 @@ use utoipa::ToSchema;
 /// The page that explains every code, in the project's sources.
 pub(super) const ERRORS_PAGE: &str = "docs/errors.md";
 
-/// The kinds of fault of a request. Some are only ever warnings, and an overlap within the tolerance is one too.
+/// The kinds of fault of a request. Some of them are only warnings. An `overlap` within the tolerance is a warning, a
+/// deeper one a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "out_of_range")]

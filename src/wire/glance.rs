@@ -26,14 +26,14 @@ struct Body<'a> {
     #[serde(borrow, default)]
     target: Option<Cow<'a, str>>,
     #[serde(default)]
-    settings: Option<Settings>,
+    settings: Option<GlancedSettings>,
     /// The scene of a verification, which is nested.
     #[serde(borrow, default)]
     scene: Option<Box<Body<'a>>>,
 }
 
 #[derive(Default, Deserialize)]
-struct Settings {
+struct GlancedSettings {
     #[serde(default)]
     time_limit_ms: Option<f64>,
 }
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_counts_as_absent() {
+    fn a_faulty_field_counts_as_absent() {
         check("", None, None, 1000);
         check(r#"{"target": 5}"#, None, None, 1000);
         check(r#"{"target": "cup", "settings": {"time_limit_ms": -1}}"#, None, Some("cup"), 1000);

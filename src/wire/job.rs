@@ -15,11 +15,11 @@ use super::problem::Problem;
 use super::scene::{GripperBody, SettingsBody, TableBody};
 use singulate_planner::search::Incumbent;
 
-/// A scene to be planned for later: the body of a planning request and two fields more.
+/// A scene to plan for later: the body of a planning request with two more fields.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobSceneBody {
-    /// The caller's name for the scene; echoed in job and answer and in logs.
+    /// The caller's name for the scene. It comes back in the job and the answer, and is logged.
     #[schema(max_length = 256, example = "cell-4/17")]
     pub scene_id: Option<String>,
     /// The table.
@@ -32,24 +32,24 @@ pub struct JobSceneBody {
         {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
     ]))]
     pub objects: Vec<ObjectBody>,
-    /// The id of the object that is wanted; not a fixed one.
+    /// The id of the object to grasp. It must not be fixed.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
     pub target: String,
     /// How to plan. The time limit counts from when a worker begins.
     pub settings: Option<SettingsBody>,
-    /// Who is told of the job's end, by a POST of the job; one of the hosts that the operator allows.
+    /// The URL to which the job is sent by POST when it has ended. The operator must have listed its host.
     #[schema(max_length = 2000, example = "https://erp.example.com/jobs")]
     pub callback_url: Option<String>,
-    /// Jobs of a greater priority go first. 0 where absent.
+    /// Jobs with a greater priority go first. Default: 0.
     #[schema(minimum = -100, maximum = 100, example = 0)]
     pub priority: Option<i32>,
 }
 
-/// Several scenes to be planned for later.
+/// Several scenes to plan for later.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BatchBody {
-    /// The scenes; all are accepted or none.
+    /// The scenes. All are accepted or none.
     #[schema(min_items = 1, max_items = 100, example = json!([{
         "table": {"x_min": 0, "y_min": 0, "x_max": 0.8, "y_max": 0.5},
         "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05},
@@ -59,7 +59,7 @@ pub struct BatchBody {
     pub scenes: Vec<JobSceneBody>,
 }
 
-/// Where a job stands. The verdict is in the result, never here.
+/// The state of a job. The verdict is in `result`, not here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "succeeded")]
@@ -78,10 +78,10 @@ pub enum JobStateWord {
     Expired,
 }
 
-/// The best so far of a running job, as the search says: places apart and before the independent check.
+/// The best set of relocations that the search of a running job has found. It has no places and is not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 pub struct IncumbentBody {
-    /// The relocations of the best set known.
+    /// The number of relocations of the best set so far.
     #[schema(value_type = usize, example = 3)]
     pub cost: u64,
     /// No plan has fewer.
@@ -98,45 +98,46 @@ impl From<Incumbent> for IncumbentBody {
 /// A job. Times are RFC 3339 in UTC.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobBody {
-    /// Its name.
+    /// The job's id.
     #[schema(example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
     pub id: String,
-    /// Where it stands.
+    /// The job's state.
     pub state: JobStateWord,
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
     pub scene_id: Option<String>,
-    /// When it was accepted.
+    /// When the job was accepted.
     #[schema(example = "2026-01-05T09:30:00.000Z")]
     pub created_at: String,
-    /// When its last attempt began.
+    /// When the last attempt began.
     #[schema(required = true, example = "2026-01-05T09:30:00.004Z")]
     pub started_at: Option<String>,
-    /// When it ended.
+    /// When the job ended.
     #[schema(required = true, example = "2026-01-05T09:30:00.012Z")]
     pub finished_at: Option<String>,
-    /// When it expires unless a worker has begun; once it has ended, when it is forgotten.
+    /// When the job expires unless a worker begins it. After its end: when it is deleted.
     #[schema(example = "2026-01-05T10:30:00.012Z")]
     pub expires_at: String,
-    /// How often a worker began.
+    /// How often a worker has begun the job.
     #[schema(example = 1)]
     pub attempts: u32,
-    /// How many jobs will be taken until it is, itself included; null unless it is queued.
+    /// The job's position in the queue, counted from 1. Null unless it is queued.
     #[schema(required = true, value_type = Option<usize>, example = 1)]
     pub queue_position: Option<u64>,
-    /// The digest of the scene without its name and settings, however it was written; hexadecimal.
+    /// The SHA-256 of the scene without `scene_id` and settings, hexadecimal. It does not depend on how the JSON is
+    /// written.
     #[schema(example = "f111313c9ecf7ea9b764844cd8466b78c8bfb0303277cfdc48e5ec969a5b84e0")]
     pub scene_sha256: String,
-    /// The version of the service that ended it; of the one that answers as long as none has.
+    /// The version of the service that ended the job. Before its end: the version that answers.
     #[schema(example = "0.1.0")]
     pub version: String,
-    /// The best so far; null where nothing is known.
+    /// The best set of relocations so far. Null if none is known.
     #[schema(required = true)]
     pub incumbent: Option<IncumbentBody>,
-    /// The answer. Null as long as there is none, and in lists: ask for the job itself.
+    /// The answer. Null until there is one. Always null in lists: fetch the job itself.
     #[schema(required = true, value_type = Option<AnswerBody>)]
     pub result: Option<RawJson>,
-    /// Why there is no answer; null unless the job failed.
+    /// Why there is no answer. Null unless the job failed.
     #[schema(required = true, value_type = Option<Problem>)]
     pub problem: Option<RawJson>,
 }
@@ -186,21 +187,21 @@ impl Serialize for RawJson {
     }
 }
 
-/// Jobs that were accepted.
+/// The accepted jobs.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobsBody {
-    /// In the order of the scenes.
+    /// The jobs, in the order of the scenes.
     #[schema(example = one_queued)]
     pub jobs: Vec<JobBody>,
 }
 
-/// Some of the caller's jobs.
+/// One page of the caller's jobs.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub struct JobListBody {
-    /// The latest first, without their results.
+    /// The jobs, the latest first, without their results.
     #[schema(example = one_queued)]
     pub jobs: Vec<JobBody>,
-    /// What to ask for the rest with, as `cursor`; null where there is no more.
+    /// The `cursor` of the next page. Null on the last page.
     #[schema(required = true, example = "019a8b2c-7d1e-7f00-8000-3c5f2a1b4d6e")]
     pub next_cursor: Option<String>,
 }
@@ -225,7 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_written_once_is_served_as_it_is() {
+    fn a_kept_answer_is_served_byte_for_byte() {
         let text = r#"{"b": [1.50, "ü\n"],  "a": null}"#;
         let kept = text.parse::<RawJson>().unwrap();
         let served = serde_json::to_string(&[Some(&kept), None, Some(&kept.clone())]).unwrap();
@@ -235,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn clones_share_what_was_written() {
+    fn clones_of_a_kept_answer_share_its_bytes() {
         let kept: RawJson = "{}".parse().unwrap();
         assert!(Arc::ptr_eq(&kept.0, &kept.clone().0));
     }

@@ -10,7 +10,7 @@ use singulate_planner::knowledge::ObjectKnowledge;
 use singulate_planner::paper::PolarHistogram;
 use singulate_planner::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
-/// What is known of every object before any search.
+/// The shadows and options of every object.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct KnowledgeBody {
     /// Every object, in the order of the request.
@@ -21,23 +21,23 @@ pub struct KnowledgeBody {
     pub objects: Vec<KnownObject>,
 }
 
-/// What is known of one object.
+/// The shadows and options of one object.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct KnownObject {
     /// The object's id.
     #[schema(example = "plate-1")]
     pub id: String,
-    /// Its options, ids each: once all of one have gone, the object is graspable. An empty option: it is so now. No option:
-    /// it can never be moved.
+    /// The object's options, each a set of ids. Once all objects of one option are gone, this object can be grasped. An
+    /// empty option means that it can be grasped now. An object without options can never be moved.
     #[schema(example = json!([["plate-2"], ["plate-5", "plate-7"]]))]
     pub options: Vec<Vec<String>>,
-    /// For each option the yaws that it frees: intervals of rad within [0, 2π/k], one that runs over 0 as two.
+    /// The yaws that each option frees: intervals within [0, 2π/k], rad. An interval across 0 is given as two.
     #[schema(example = json!([[[0.31, 0.55]], [[1.7, 1.71]]]))]
     pub option_yaws: Vec<Vec<[f64; 2]>>,
-    /// The obstacles that block it at some yaw.
+    /// The obstacles that block this object at some yaw.
     #[schema(example = json!([{"obstacle": "plate-2", "intervals": [[0.0, 0.42], [1.9, 2.0943951]]}]))]
     pub shadows: Vec<ShadowBody>,
-    /// The paper's polar histogram, where `grasp_model` is `sector`; null otherwise.
+    /// The paper's polar histogram. Null unless `grasp_model` is `sector`.
     #[schema(required = true)]
     pub histogram: Option<HistogramBody>,
 }
@@ -48,14 +48,14 @@ pub struct ShadowBody {
     /// The obstacle's id.
     #[schema(example = "plate-2")]
     pub obstacle: String,
-    /// Intervals of rad within [0, 2π/k], one that runs over 0 as two.
+    /// The blocked yaws: intervals within [0, 2π/k], rad. An interval across 0 is given as two.
     #[schema(example = json!([[0.0, 0.42], [1.9, 2.0943951]]))]
     pub intervals: Vec<[f64; 2]>,
 }
 
-/// The paper's polar histogram round an object, in sectors of one degree. Magnitudes have no unit: 1 and more where an
-/// obstacle is, larger where it is nearer (Eq. 1 with b = 1, in cells of 5 mm, a by Eq. 8 for each object anew, so that
-/// figures of two objects don't compare).
+/// The paper's polar histogram round an object, in sectors of one degree. Magnitudes have no unit: at least 1 where
+/// there is an obstacle, larger where it is nearer. They follow Eq. 1 with b = 1 in cells of 5 mm. Eq. 8 gives each
+/// object an a of its own, so magnitudes of two objects can't be compared.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct HistogramBody {
     /// H(z) of Eq. 1, summed over the obstacles, for z = 0 … 359 degrees.

@@ -5,7 +5,7 @@ use core::fmt;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::code::ErrorCode;
-use super::path::MAX_FAULTS;
+use super::path::MAX_ERRORS;
 use super::problem::{ErrorItem, Problem, ProblemKind};
 use super::walk::{NoNumber, Slip, Walk};
 
@@ -27,19 +27,19 @@ fn faults(body: &[u8], found: Walk<'_>) -> Vec<ErrorItem> {
     }
     let whole = |what: fmt::Arguments<'_>| vec![no_json("", what)];
     if let Some(encoding) = wide_encoding(body) {
-        return whole(format_args!("it is a text in {encoding}; send UTF-8"));
+        return whole(format_args!("it is encoded in {encoding}; send UTF-8"));
     }
     if body.starts_with(BYTE_ORDER_MARK) {
-        return whole(format_args!("it begins with a byte order mark; send UTF-8 without"));
+        return whole(format_args!("it begins with a byte order mark; send UTF-8 without it"));
     }
     if body.starts_with(GZIP) {
-        return whole(format_args!("it is compressed by gzip; send it as it is"));
+        return whole(format_args!("it is compressed by gzip; send it uncompressed"));
     }
     let mut places = Places::of(body);
     let mut faults: Vec<ErrorItem> =
         found.no_numbers.iter().map(|no_number| of_no_number(no_number, places.at(no_number.at))).collect();
     faults.extend(found.slip.map(|(slip, at)| no_json("", format_args!("{}", sentence(&slip, places.at(at))))));
-    faults.truncate(MAX_FAULTS);
+    faults.truncate(MAX_ERRORS);
     if !faults.is_empty() {
         return faults;
     }

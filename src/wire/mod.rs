@@ -41,7 +41,7 @@ pub use knowledge::{HistogramBody, KnowledgeBody, KnownObject, ShadowBody};
 pub use limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
 pub use object::ObjectBody;
 pub use plan_request::PlanRequest;
-pub use problem::{Cause, ErrorItem, Problem, ProblemKind, WarningItem};
+pub use problem::{ErrorItem, LoggedProblem, Problem, ProblemKind, WarningItem};
 pub use request::read_scene;
 pub use scene::{
     GraspModelWord, GripperBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord, SettingsBody,

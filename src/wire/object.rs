@@ -25,7 +25,7 @@ pub struct ObjectBody {
     /// Radius, m.
     #[schema(minimum = 0.000001, maximum = 1000, example = 0.075)]
     pub radius: f64,
-    /// True if it can't be moved. False where absent.
+    /// True if the object can't be moved. Default: false.
     #[schema(example = false)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<bool>,

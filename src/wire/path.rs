@@ -48,4 +48,4 @@ impl fmt::Display for Path<'_> {
 const MAX_NAMED: usize = 1000;
 
 /// The most faults that one answer lists: past that nobody reads on.
-pub(super) const MAX_FAULTS: usize = 1000;
+pub(super) const MAX_ERRORS: usize = 1000;

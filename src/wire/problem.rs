@@ -8,18 +8,18 @@ use utoipa::ToSchema;
 
 use super::code::{ERRORS_PAGE, ErrorCode};
 
-/// One thing that is wrong with a request.
+/// One fault of a request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct ErrorItem {
     /// The kind of fault, a word for programs.
     pub code: ErrorCode,
-    /// The place in the request body, a JSON pointer (RFC 6901); empty for the body as a whole.
+    /// The place in the request body, a JSON pointer (RFC 6901). Empty for the body as a whole.
     #[schema(example = "/objects/3/radius")]
     pub pointer: String,
     /// One sentence for people.
     #[schema(example = "-0.075 is not between 0.000001 and 1000")]
     pub detail: String,
-    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    /// The place in the project's documentation that explains cause and cure.
     #[schema(example = "docs/errors.md#out_of_range")]
     see: String,
 }
@@ -36,14 +36,14 @@ impl ErrorItem {
     }
 }
 
-/// One thing that is worth knowing about a scene or an answer, in the same form as a fault.
+/// A warning about a scene or an answer, in the same form as a fault.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct WarningItem {
-    /// The kind of warning, a word for programs. Later versions may add some, and an answer is one all the same: a client
-    /// passes over a word that it does not know.
+    /// The kind of warning, a word for programs. Later versions may add some. A client ignores a word that it does not
+    /// know.
     #[schema(example = "overlap")]
     pub code: String,
-    /// The place in the request body, a JSON pointer (RFC 6901); empty for the body as a whole.
+    /// The place in the request body, a JSON pointer (RFC 6901). Empty for the body as a whole.
     #[schema(example = "/objects/2")]
     pub pointer: String,
     /// One sentence for people.
@@ -64,10 +64,10 @@ pub enum ProblemKind {
     /// No valid key or client certificate came with the request.
     #[serde(rename = "urn:singulate:problem:unauthorized")]
     Unauthorized,
-    /// The key is for something else.
+    /// The key lacks the scope for this call.
     #[serde(rename = "urn:singulate:problem:forbidden")]
     Forbidden,
-    /// The key was used more often than it may be.
+    /// The key was used more often than its rate allows.
     #[serde(rename = "urn:singulate:problem:rate_exceeded")]
     RateExceeded,
     /// Nothing lives at this path.
@@ -176,7 +176,7 @@ impl fmt::Display for ProblemKind {
 
 /// A problem for a log line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cause {
+pub struct LoggedProblem {
     /// The kind of problem.
     pub problem: ProblemKind,
     /// The kind of the first fault, if the body has any.
@@ -198,10 +198,10 @@ pub struct Problem {
     /// What happened this time.
     #[schema(example = "1 fault")]
     detail: String,
-    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    /// The place in the project's documentation that explains cause and cure.
     #[schema(example = "docs/errors.md#problem-invalid_request")]
     see: String,
-    /// Every fault of the body that was found, 1000 at the most; empty where the body is not to blame.
+    /// Every fault that was found in the body, at most 1000. Empty if the body is not at fault.
     #[schema(max_items = 1000, example = json!([{
         "code": "out_of_range",
         "pointer": "/objects/3/radius",
@@ -262,8 +262,8 @@ impl Problem {
     }
 
     /// For a log line.
-    pub fn cause(&self) -> Cause {
-        Cause { problem: self.kind, code: self.errors.first().map(|error| error.code) }
+    pub fn cause(&self) -> LoggedProblem {
+        LoggedProblem { problem: self.kind, code: self.errors.first().map(|error| error.code) }
     }
 
     /// The status code.

@@ -5,7 +5,7 @@ use core::fmt;
 use super::code::ErrorCode;
 use super::json::{Json, Object};
 use super::malformed::{Places, malformed};
-use super::path::{MAX_FAULTS, Path};
+use super::path::{MAX_ERRORS, Path};
 use super::problem::{ErrorItem, Problem};
 use super::walk::{Repeated, walk};
 
@@ -17,7 +17,7 @@ pub(super) struct Faults {
 
 impl Faults {
     pub(super) fn add(&mut self, code: ErrorCode, path: &Path<'_>, detail: fmt::Arguments<'_>) {
-        if self.items.len() < MAX_FAULTS {
+        if self.items.len() < MAX_ERRORS {
             self.items.push(ErrorItem::new(code, path.pointer(), detail.to_string()));
         }
     }
@@ -84,7 +84,7 @@ impl<'a> Node<'a> {
     pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
         let Json::Object(object) = self.value else { return self.wrong_type("an object", faults) };
         let names_there = object.fields.iter().map(|(name, _)| name.as_ref());
-        for name in names_there.filter(|name| !names.known.contains(name)).take(MAX_FAULTS) {
+        for name in names_there.filter(|name| !names.known.contains(name)).take(MAX_ERRORS) {
             let path = self.path.field(name);
             if names.reserved.contains(&name) {
                 faults.add(ErrorCode::UnknownField, &path, format_args!("this name is reserved for a later version"));
@@ -106,11 +106,7 @@ impl<'a> Node<'a> {
         if value.is_none() {
             // Only a literal beyond the range of a double has no value.
             let literal: String = number.chars().take(40).collect();
-            faults.add(
-                ErrorCode::OutOfRange,
-                self.path,
-                format_args!("{literal} is further from 0 than any number here may be"),
-            );
+            faults.add(ErrorCode::OutOfRange, self.path, format_args!("{literal} is out of the range of every field"));
         }
         value
     }
@@ -180,7 +176,7 @@ impl<'a> Node<'a> {
         let Json::Array(values) = self.value else { return self.wrong_type("an array", faults) };
         let mut items = Vec::new();
         for (position, value) in values.iter().enumerate() {
-            if faults.items.len() >= MAX_FAULTS {
+            if faults.items.len() >= MAX_ERRORS {
                 // The answer lists no more faults, so the rest is not read.
                 return None;
             }

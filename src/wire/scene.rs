@@ -29,7 +29,7 @@ use singulate_planner::scene::{Gripper, Rectangle, Scene};
     "settings": {"objective": "far_from_target", "time_limit_ms": 1000}
 }))]
 pub struct SceneBody {
-    /// The caller's name for the scene; echoed in the answer and in logs.
+    /// The caller's name for the scene. It comes back in the answer, and is logged.
     #[schema(max_length = 256, example = "cell-4/17")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scene_id: Option<String>,
@@ -43,7 +43,7 @@ pub struct SceneBody {
         {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
     ]))]
     pub objects: Vec<ObjectBody>,
-    /// The id of the object that is wanted; not a fixed one.
+    /// The id of the object to grasp. It must not be fixed.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
     pub target: String,
     /// How to plan.
@@ -67,7 +67,7 @@ pub struct TableBody {
     /// Upper side, m; above `y_min`.
     #[schema(minimum = -100000, maximum = 100000, example = 0.7)]
     pub y_max: f64,
-    /// Where nothing may be placed; such places don't block fingers. None where absent.
+    /// Rectangles where nothing may be placed. Fingers may pass over them. Default: none.
     #[schema(example = json!([{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_out: Option<Vec<RectangleBody>>,
@@ -104,11 +104,11 @@ pub struct GripperBody {
     /// How far beyond the object's edge an open finger reaches, m.
     #[schema(minimum = 0.000001, maximum = 1000, example = 0.05)]
     pub clearance: f64,
-    /// Extra gap between fingers and obstacles, and between a new place and other objects, m. 0 where absent.
+    /// Extra gap between fingers and obstacles, and between a new place and other objects, m. Default: 0.
     #[schema(minimum = 0, maximum = 1000, example = 0.0)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// How far the real yaw may be off the planned one, rad. 0 where absent.
+    /// How far the real yaw may be off the planned one, rad. Default: 0.
     #[schema(minimum = 0, maximum = 3.141592653589793, example = 0.0)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_tolerance: Option<f64>,
@@ -118,24 +118,24 @@ pub struct GripperBody {
 #[derive(Debug, Clone, Default, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SettingsBody {
-    /// Which yaws an obstacle blocks. `swept_finger` where absent.
+    /// Which yaws an obstacle blocks. Default: `swept_finger`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grasp_model: Option<GraspModelWord>,
-    /// How the least set of relocations is found. `landmarks` where absent.
+    /// How the least set of relocations is found. Default: `landmarks`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchWord>,
-    /// How new places are found. `exact` where absent.
+    /// How new places are found. Default: `exact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<PlacementWord>,
-    /// Which of the free places a relocated object goes to. `far_from_target` where absent.
+    /// Which of the free places a relocated object goes to. Default: `far_from_target`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub objective: Option<ObjectiveWord>,
-    /// The time for waiting and planning from the arrival of the request, ms. 1000 where absent.
+    /// The time for waiting, planning and checking, from the arrival of the request, ms. Default: 1000.
     #[schema(minimum = 1, maximum = 60000, example = 1000)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_limit_ms: Option<u32>,
-    /// How deep two discs may overlap and still pass as perception noise, m. 0.001 where absent, at most 0.01 unless the
-    /// operator admits more.
+    /// How deep two discs may overlap and still pass as perception noise, m. Default: 0.001. At most 0.01 unless the
+    /// operator allows more.
     #[schema(minimum = 0, maximum = 0.01, example = 0.003)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap_tolerance: Option<f64>,

@@ -19,26 +19,26 @@ use singulate_planner::cost::Cost;
 use singulate_planner::scene::Scene;
 use singulate_planner::statement::{Deadlock, Statement, Verdict};
 
-/// A scene and a stated answer.
+/// A scene and the answer to check.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VerifyBody {
     /// The scene, as in a planning request.
     pub scene: SceneBody,
-    /// The answer, whole as it was served, or just its `relocations` and `target_grasp`.
+    /// The answer as it was served, or just its `relocations` and `target_grasp`.
     pub plan: PlanBody,
 }
 
-/// A stated answer. What is absent or null is not checked.
+/// The answer to check. Parts that are absent or null are not checked.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanBody {
-    /// The verdict. Where it is absent, `target_grasp` is required.
+    /// The verdict. If it is absent, `target_grasp` is required.
     pub verdict: Option<VerdictWord>,
     /// Not checked.
     #[schema(example = "cell-4/17")]
     pub scene_id: Option<String>,
-    /// The scene's own target.
+    /// The target. It must be the scene's own.
     #[schema(example = "plate-1")]
     pub target: Option<String>,
     /// The steps, in order.
@@ -47,23 +47,23 @@ pub struct PlanBody {
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
     pub relocations: Vec<StatedRelocation>,
-    /// How the target is grasped in the end.
+    /// The grasp of the target after all relocations.
     pub target_grasp: Option<StatedGraspBody>,
-    /// The count of relocations.
+    /// The number of relocations.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
     pub cost: Option<u32>,
-    /// No plan is said to have fewer relocations.
+    /// The claimed bound: no plan has fewer relocations.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
     pub lower_bound: Option<u32>,
-    /// The plan is said to be as short as any.
+    /// The claim that no plan has fewer relocations than this one.
     #[schema(example = true)]
     pub optimal: Option<bool>,
-    /// The proof of the bound: of each set of ids every plan is said to move at least one.
+    /// The proof of the bound: every plan moves at least one object of each set.
     #[schema(example = json!([["plate-2", "plate-5"]]))]
     pub landmarks: Option<Vec<Vec<String>>>,
     /// The proof of a deadlock.
     pub deadlock: Option<StatedDeadlock>,
-    /// The ids of the best known derivation where there is no plan, in order.
+    /// If there is no plan: objects that would free the target, moved in this order, if there were places for them.
     #[schema(example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
     /// Not checked.
@@ -87,14 +87,14 @@ impl PartialSchema for AnyObject {
 
 impl ToSchema for AnyObject {}
 
-/// A stated lock.
+/// The lock of an answer to check.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedDeadlock {
     /// The ids of the greatest lock.
     #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
     pub blocked: Vec<String>,
-    /// The ids of a least lock within it.
+    /// The ids of a minimal lock within `blocked`.
     #[schema(example = json!(["plate-1", "vase"]))]
     pub core: Vec<String>,
 }

@@ -21,14 +21,14 @@ pub struct RelocationBody<'a> {
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]
     pub object: &'a str,
-    /// Its centre before.
+    /// The object's centre before the move.
     #[schema(value_type = PointBody, required = true)]
     pub from: Option<PointBody>,
-    /// Its centre after.
+    /// The object's centre after the move.
     pub to: PointBody,
-    /// How it is picked.
+    /// The grasp at the old place.
     pub grasp: GraspBody,
-    /// How it is let go.
+    /// The yaw at which the object is let go at the new place.
     pub release: GraspBody,
     /// Least distance to another object at the new place, edge to edge, m.
     #[schema(value_type = f64, required = true, example = 0.031)]
@@ -55,40 +55,40 @@ pub struct PointBody {
     pub y: f64,
 }
 
-/// A yaw of the gripper that is free, with the room round it.
+/// A free yaw of the gripper, with the free angle beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 pub struct GraspBody {
     /// Direction of finger 0, rad, counter-clockwise from +x, in [0, 2π/k).
     #[schema(example = 0.31)]
     pub yaw: f64,
-    /// The free angle on each side of the yaw, rad; π/k where nothing blocks.
+    /// The free angle on each side of the yaw, rad. π/k if nothing blocks.
     #[schema(value_type = f64, required = true, example = 0.12)]
     pub slack: Option<f64>,
 }
 
-/// A stated step.
+/// A step of an answer to check.
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedRelocation {
-    /// The kind of step; `pick_place` where absent.
+    /// The kind of step. Default: `pick_place`.
     pub action: Option<ActionWord>,
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]
     pub object: String,
-    /// Its centre before.
+    /// The object's centre before the move.
     pub from: Option<StatedPoint>,
-    /// Its centre after.
+    /// The object's centre after the move.
     pub to: StatedPoint,
-    /// How it is picked.
+    /// The grasp at the old place.
     pub grasp: StatedGraspBody,
-    /// How it is let go.
+    /// The yaw at which the object is let go at the new place.
     pub release: StatedGraspBody,
     /// Least distance to another object at the new place, edge to edge, m.
     #[schema(example = 0.031)]
     pub gap: Option<f64>,
 }
 
-/// A stated point.
+/// A point of an answer to check.
 #[derive(Debug, Clone, Copy, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedPoint {
@@ -100,7 +100,7 @@ pub struct StatedPoint {
     pub y: f64,
 }
 
-/// A stated yaw.
+/// A yaw of an answer to check.
 #[derive(Debug, Clone, Copy, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = StatedGrasp)]

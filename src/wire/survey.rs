@@ -7,7 +7,7 @@ use singulate_planner::cost::Cost;
 use singulate_planner::plan::{SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::Scene;
 
-/// Every movable object as the target. Logic only: places for the relocated objects are not sought.
+/// Every movable object as the target. No places are searched for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct SurveyBody {
     /// The movable objects, in the order of the request.
@@ -21,17 +21,17 @@ pub struct SurveyedObject {
     /// The object's id.
     #[schema(example = "plate-1")]
     pub id: String,
-    /// What holds for it as the target.
+    /// The verdict for this object as the target.
     pub verdict: SurveyWord,
-    /// No plan has fewer relocations, proven; null for a deadlock.
+    /// The proven lower bound: no plan has fewer relocations. Null for a deadlock.
     #[schema(value_type = Option<usize>, required = true, example = 2)]
     pub lower_bound: Option<u64>,
-    /// True if that many relocations suffice, places apart; null for a deadlock.
+    /// True if that many relocations suffice, provided that there are places for them. Null for a deadlock.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
 }
 
-/// What holds for one object as the target.
+/// The verdict for one object as the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "relocate")]

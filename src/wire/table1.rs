@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::scene::{GraspModelWord, SearchWord};
 use crate::experiments::{
-    ExperimentSettings, Interval, MethodFigures, ModelFigures, PlanFigures, Printed, Spread, TABLE1_EPISODES,
+    ConfidenceInterval, ExperimentSettings, MethodFigures, ModelFigures, PlanFigures, Printed, Spread, TABLE1_EPISODES,
     Table1Column,
 };
 use singulate_planner::paper::SearchMethod;
@@ -257,6 +257,6 @@ pub(super) fn median(spread: Option<Spread>) -> Option<f64> {
     spread.map(|spread| spread.median)
 }
 
-fn ends(interval: Interval) -> [f64; 2] {
+fn ends(interval: ConfidenceInterval) -> [f64; 2] {
     [interval.low, interval.high]
 }

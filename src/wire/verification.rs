@@ -6,13 +6,13 @@ use utoipa::ToSchema;
 use super::code::ERRORS_PAGE;
 use singulate_planner::check::{Fault, Report};
 
-/// What the independent checker says of a stated answer.
+/// The result of the independent check.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct VerificationBody {
-    /// True if everything that is stated holds and all of it could be checked.
+    /// True if everything that the answer states holds and all of it could be checked.
     #[schema(example = false)]
     pub valid: bool,
-    /// Everything that does not hold.
+    /// Every fault that was found.
     #[schema(example = json!([{
         "code": "unknown_object", "step": 0, "object": "plate-2", "detail": "there is no object 'plate-2'",
         "see": "docs/errors.md#plan-unknown_object"
@@ -20,22 +20,22 @@ pub struct VerificationBody {
     pub faults: Vec<FaultBody>,
 }
 
-/// One thing that does not hold.
+/// One fault of an answer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct FaultBody {
-    /// The kind of fault, a word for programs; `interrupted` where the time limit came before all was checked.
+    /// The kind of fault, a word for programs. `interrupted` means that time ran out before everything was checked.
     #[schema(example = "unknown_object")]
     pub code: &'static str,
-    /// The position of the relocation, counted from 0; null for the answer as a whole.
+    /// The position of the relocation, counted from 0. Null for the answer as a whole.
     #[schema(required = true, example = 0)]
     pub step: Option<usize>,
-    /// The id of the object concerned; null where there is none.
+    /// The id of the object concerned. Null if the fault concerns no single object.
     #[schema(required = true, example = "plate-2")]
     pub object: Option<String>,
     /// One sentence for people.
     #[schema(example = "there is no object 'plate-2'")]
     pub detail: String,
-    /// Where its cause and its cure are explained: a page of the project's sources, and the place on it.
+    /// The place in the project's documentation that explains cause and cure.
     #[schema(example = "docs/errors.md#plan-unknown_object")]
     see: String,
 }
@@ -68,7 +68,7 @@ impl FaultBody {
     }
 
     fn interrupted() -> Self {
-        Self::of_answer("interrupted", "the time limit came before everything was checked")
+        Self::of_answer("interrupted", "time ran out before everything was checked")
     }
 }
 

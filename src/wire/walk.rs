@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::json::{Json, Object};
-use super::path::{MAX_FAULTS, Path};
+use super::path::{MAX_ERRORS, Path};
 use singulate_planner::scene::MAX_ID_LENGTH;
 
 /// The deepest nesting of values, as in the JSON library.
@@ -174,7 +174,7 @@ impl<'t> Walker<'t> {
             self.at += 1;
             let (field, count) = (path.field(&name), fields.len());
             let place = *places.entry(name.clone()).or_insert(count);
-            if place < count && self.found.repeated.len() < MAX_FAULTS {
+            if place < count && self.found.repeated.len() < MAX_ERRORS {
                 let shown = name.chars().take(MAX_SHOWN).collect();
                 self.found.repeated.push(Repeated { name: shown, at, pointer: field.pointer() });
             }
@@ -275,7 +275,7 @@ impl<'t> Walker<'t> {
             return Err(Some(Slip::Word(word)));
         }
         self.sound = false;
-        if self.found.no_numbers.len() < MAX_FAULTS {
+        if self.found.no_numbers.len() < MAX_ERRORS {
             self.found.no_numbers.push(NoNumber { word, at, pointer: path.pointer(), id: None });
         }
         Ok(Json::Null)

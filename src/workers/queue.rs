@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 /// The queue. Items of one turn go in order of arrival.
 #[derive(Debug)]
 pub(super) struct Queue<T> {
-    entries: BTreeMap<(u64, u64), Entry<T>>,
+    entries: BTreeMap<(u64, u64), QueuedItem<T>>,
     arrivals: u64,
 }
 
 #[derive(Debug)]
-struct Entry<T> {
+struct QueuedItem<T> {
     owner: Box<str>,
     item: T,
 }
@@ -31,7 +31,7 @@ impl<T> Queue<T> {
     pub(super) fn push(&mut self, owner: &str, item: T) {
         let place = (self.turn(owner), self.arrivals);
         self.arrivals += 1;
-        self.entries.insert(place, Entry { owner: owner.into(), item });
+        self.entries.insert(place, QueuedItem { owner: owner.into(), item });
     }
 
     pub(super) fn pop(&mut self) -> Option<T> {
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn who_comes_late_neither_waits_for_all_nor_goes_before_who_is_next() {
+    fn a_new_owner_joins_after_the_next_in_line() {
         let mut queue = pushed(&["a1", "a2", "a3"]);
         assert_eq!(queue.pop(), Some("a1"));
         queue.push("b", "b1");
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_ahead_depends_on_the_owner() {
+    fn the_work_ahead_depends_on_the_owner() {
         let mut queue = pushed(&["a1", "a2", "b1"]);
         let ahead = |queue: &Queue<&'static str>, owner| queue.ahead_of(owner).copied().collect::<Vec<_>>().join(" ");
         assert_eq!(ahead(&queue, "a"), "a1 b1 a2");

@@ -127,7 +127,7 @@ async fn owners_take_turns_at_the_thread() {
 }
 
 #[tokio::test]
-async fn what_can_not_start_in_time_is_refused_at_once() {
+async fn a_computation_that_can_not_start_in_time_is_refused_at_once() {
     let pool = Pool::new(1, 10).unwrap();
     let minute = Duration::from_secs(60);
     let ask = |pool: &Pool, limit| pool.submit(ANYBODY, Instant::now(), limit, |_| 7);
@@ -152,7 +152,7 @@ async fn what_can_not_start_in_time_is_refused_at_once() {
 }
 
 #[tokio::test]
-async fn who_has_fewer_before_it_is_taken_where_another_is_refused() {
+async fn an_owner_with_a_shorter_queue_is_accepted_when_another_is_refused() {
     let pool = Pool::new(1, 10).unwrap();
     let limit = Duration::from_secs(150);
     let (_release, _running) = held(&pool);
@@ -164,7 +164,7 @@ async fn who_has_fewer_before_it_is_taken_where_another_is_refused() {
 }
 
 #[tokio::test]
-async fn who_is_recalled_delivers_what_it_has() {
+async fn a_recalled_computation_delivers_its_best_so_far() {
     let pool = Pool::new(1, 1).unwrap();
     let (told, began) = channel();
     let best_so_far = move |budget: &Budget<'_>| {
@@ -204,7 +204,7 @@ async fn a_pool_calls_everything_to_its_end() {
 }
 
 #[tokio::test]
-async fn who_loses_its_place_to_another_has_timed_out_and_not_panicked() {
+async fn a_late_computation_that_loses_its_place_has_timed_out() {
     let pool = Pool::new(1, 1).unwrap();
     let (release, _running) = held(&pool);
     let late = pool.submit(ANYBODY, Instant::now(), Duration::from_millis(1), |_| 7).unwrap();

@@ -92,7 +92,7 @@ fn anchors() -> BTreeSet<&'static str> {
 }
 
 #[test]
-fn every_row_that_is_referred_to_is_there() {
+fn every_entry_that_answers_refer_to_exists() {
     for (section, column, prefix) in
         [("Problems", 1, "problem-"), ("Faults of a request", 0, ""), ("Faults of a plan", 0, "plan-")]
     {
@@ -116,7 +116,7 @@ fn every_row_has_a_cause_and_a_cure() {
 }
 
 #[test]
-fn the_problem_that_is_shown_is_what_is_said() {
+fn the_problem_on_the_page_is_what_the_program_prints() {
     let text = PAGE.split("```json problem\n").nth(1).unwrap().split("```").next().unwrap();
     let shown: Value = serde_json::from_str(text).unwrap();
     let mut scene: Value = serde_json::from_str(crate::scenes::CROWD).unwrap();

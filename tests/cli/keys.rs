@@ -53,7 +53,7 @@ fn without_a_file_the_entry_is_printed_below_the_key() {
 }
 
 #[test]
-fn what_makes_no_key_is_refused_and_leaves_the_file_as_it_was() {
+fn key_new_refuses_faulty_arguments_and_leaves_the_file_unchanged() {
     for wrong in [
         &["key", "new", ""][..],
         &["key", "new", "two words"],
@@ -73,7 +73,7 @@ fn what_makes_no_key_is_refused_and_leaves_the_file_as_it_was() {
 }
 
 #[test]
-fn a_service_that_others_can_reach_does_not_start_unless_somebody_said_who_may_call() {
+fn a_service_that_others_can_reach_needs_keys_or_insecure_to_start() {
     for listen in ["0.0.0.0:0", "[::]:0", "192.0.2.1:1"] {
         let errors = failed(&run(&["serve", "--listen", listen, "--jobs-url", NO_STORE]), 2);
         for way in ["singulate key new NAME --api-keys-file keys.toml", "--insecure", "SINGULATE_API_KEYS_FILE=FILE"] {

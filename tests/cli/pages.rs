@@ -239,12 +239,12 @@ fn unit_and_range(description: &str, schema: &Value) -> (String, String) {
     (unit.to_owned(), range)
 }
 
-/// What the description says of an absent field.
+/// The default that the description states.
 fn default(description: &str) -> String {
-    let stated = description.split(" where absent").next().filter(|rest| rest.len() < description.len());
-    match stated.and_then(|rest| rest.rsplit(' ').next()) {
-        None | Some("None") => "none".to_owned(),
-        Some("False") => "`false`".to_owned(),
+    let stated = description.split_once("Default: ").and_then(|(_, rest)| rest.split_whitespace().next());
+    match stated.map(|value| value.trim_end_matches('.')) {
+        None => "none".to_owned(),
+        Some("false") => "`false`".to_owned(),
         Some(value) => value.to_owned(),
     }
 }

@@ -183,7 +183,7 @@ fn addresses_that_are_nearly_right_get_advice() {
             "9000",
             "--listen: '9000' is not an address and port like 0.0.0.0:8080; did you mean 127.0.0.1:9000",
         ),
-        ("--jobs-url", "x.db", "--jobs-url: 'x.db' says no kind of store; did you mean sqlite:x.db?"),
+        ("--jobs-url", "x.db", "--jobs-url: 'x.db' names no kind of store; did you mean sqlite:x.db?"),
     ] {
         let errors = failed(&run(&["serve", flag, value]), 2);
         assert!(errors.starts_with(advice), "{errors}");

@@ -67,7 +67,7 @@ fn a_service_by_tls_says_so_and_is_healthy_whatever_name_its_certificate_has() {
         assert_eq!(answered(run(&["healthcheck", "--config", config.to_str().unwrap()])), "");
         // A URL is asked as it stands.
         let plain = failed(&run(&["healthcheck", "--url", &format!("http://{listen}/readyz")]), 1);
-        assert!(plain.contains("400") && plain.contains("this port speaks TLS: ask https"), "{plain}");
+        assert!(plain.contains("400") && plain.contains("this port speaks TLS; use https"), "{plain}");
     }
 }
 

@@ -79,7 +79,7 @@ async fn a_file_that_others_have_open_is_complete_when_one_of_them_closes_it() {
 }
 
 #[tokio::test]
-async fn what_is_left_beside_a_file_is_told() {
+async fn a_log_left_beside_the_file_is_reported() {
     let home = Home::in_a_file();
     let store = home.store().await;
     submitted(&store, job()).await;
@@ -121,7 +121,7 @@ async fn an_address_may_hold_any_name_and_parameters() {
 }
 
 #[tokio::test]
-async fn where_nothing_can_be_kept_the_setting_is_named() {
+async fn an_unusable_jobs_url_names_the_setting() {
     let home = Home::in_a_file();
     let missing = format!("{}/missing/jobs.db", home.settings.url);
     let folder = home.settings.url.trim_end_matches("/jobs.db").to_owned();

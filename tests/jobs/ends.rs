@@ -58,7 +58,7 @@ pub(crate) async fn what_has_ended_is_not_cancelled(home: &Home) {
     assert_eq!(seen(&store, id).await, ended);
 }
 
-pub(crate) async fn only_what_has_ended_is_forgotten(home: &Home) {
+pub(crate) async fn only_ended_jobs_are_deleted(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     assert_eq!(store.forget(&ann(), id).await.unwrap(), Removal::Unfinished);

@@ -60,7 +60,7 @@ macro_rules! over_every_shared_store {
 }
 
 over_every_shared_store! {
-    timeouts::what_has_timed_out_has_not_happened
+    timeouts::a_call_that_timed_out_has_changed_nothing
     timeouts::a_lease_begins_when_the_store_can_write
 }
 
@@ -76,7 +76,7 @@ over_every_store! {
     ends::a_running_job_is_cancelled_with_its_answer
     ends::a_cancelled_job_that_fails_has_no_answer
     ends::what_has_ended_is_not_cancelled
-    ends::only_what_has_ended_is_forgotten
+    ends::only_ended_jobs_are_deleted
     ends::a_job_that_waited_too_long_expires
     ends::a_job_that_begins_in_time_may_take_longer
     ends::what_ended_is_forgotten_when_its_time_is_over
@@ -110,8 +110,8 @@ over_every_store! {
     callbacks::an_older_try_has_no_say
     callbacks::every_kind_of_end_is_called_back
     callbacks::callbacks_at_once_are_taken_once
-    timeouts::a_claim_that_nobody_waits_for_any_more_is_handed_back
-    timeouts::a_callback_that_nobody_waits_for_any_more_is_due_at_once
+    timeouts::a_claim_whose_caller_left_is_handed_back
+    timeouts::a_callback_whose_caller_left_is_due_at_once
     hints::what_waits_for_a_worker_wakes_workers
     hints::a_change_wakes_who_waits_for_it
 }

@@ -11,7 +11,7 @@ use tokio::time::{Instant, sleep, timeout};
 use crate::home::{Home, PATIENCE, at, claimed, execute, job, postgres_url, submitted};
 
 #[tokio::test]
-async fn a_change_wakes_who_waits_on_another_server() {
+async fn a_change_wakes_waiters_on_another_server() {
     let Some(home) = Home::in_postgres().await else { return };
     let (here, there) = (home.store().await, home.store().await);
     let new = NewJob { callback_url: Some("https://example.org".to_owned()), ..job() };

@@ -72,7 +72,7 @@ async fn three(store: &Arc<dyn Store>) -> [Job; 3] {
     [seen(store, queued).await, seen(store, running).await, seen(store, ended).await]
 }
 
-pub(crate) async fn what_has_timed_out_has_not_happened(home: &Home) {
+pub(crate) async fn a_call_that_timed_out_has_changed_nothing(home: &Home) {
     let store = home.store().await;
     let before = three(&store).await;
     let [queued, running, ended] = before.each_ref().map(|job| job.id);
@@ -122,7 +122,7 @@ async fn once<T>(ask: impl AsyncFn() -> Option<T>) -> T {
     }
 }
 
-pub(crate) async fn a_claim_that_nobody_waits_for_any_more_is_handed_back(home: &Home) {
+pub(crate) async fn a_claim_whose_caller_left_is_handed_back(home: &Home) {
     let store = home.store().await;
     let id = submitted(&store, job()).await.id;
     begin_and_go(store.claim(&at(1).into())).await;
@@ -133,7 +133,7 @@ pub(crate) async fn a_claim_that_nobody_waits_for_any_more_is_handed_back(home: 
     assert_eq!(claimed(&store, 2).await.attempt, 1);
 }
 
-pub(crate) async fn a_callback_that_nobody_waits_for_any_more_is_due_at_once(home: &Home) {
+pub(crate) async fn a_callback_whose_caller_left_is_due_at_once(home: &Home) {
     let store = home.store().await;
     let url = Some("https://example.org".to_owned());
     submitted(&store, NewJob { callback_url: url, ..job() }).await;

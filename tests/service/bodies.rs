@@ -141,7 +141,7 @@ async fn a_client_that_asks_before_it_sends_learns_what_is_wrong_at_once() {
 }
 
 #[tokio::test]
-async fn what_is_no_text_at_all_is_named() {
+async fn an_empty_body_and_a_byte_order_mark_are_named() {
     let host = Host::start().await;
     for (body, word) in [("", "empty"), (" \n", "empty"), ("\u{feff}{}", "byte order mark")] {
         let reply = host.post_with("/v1/plans", &[("content-type", "application/json")], body.to_owned()).await;

@@ -63,7 +63,7 @@ async fn http_2_without_negotiation_is_told_that_this_is_http_1_1() {
     assert!(head.starts_with("HTTP/1.1 400 ") && head.contains("\r\nconnection: close"), "{text}");
     let problem: serde_json::Value = serde_json::from_str(body).unwrap();
     assert_eq!(problem["type"], "urn:singulate:problem:malformed_http");
-    assert_eq!(problem["detail"], "this service speaks HTTP/1.1 and no HTTP/2");
+    assert_eq!(problem["detail"], "this service speaks HTTP/1.1, not HTTP/2");
 }
 
 #[tokio::test]

@@ -70,9 +70,9 @@ fn the_lengths_of_the_document_are_those_of_the_checks() {
         assert_eq!(property(schema, field, name), value as u64, "{schema}.{field}.{name}");
     }
     let default = &schemas["SettingsBody"]["properties"]["time_limit_ms"]["description"];
-    assert!(default.as_str().unwrap().contains(&format!("{} where absent", limits.default_time_limit.as_millis())));
+    assert!(default.as_str().unwrap().contains(&format!("Default: {}.", limits.default_time_limit.as_millis())));
     let default = &schemas["SettingsBody"]["properties"]["overlap_tolerance"]["description"];
-    assert!(default.as_str().unwrap().contains(&format!("{} where absent", limits.scene.overlap_tolerance)));
+    assert!(default.as_str().unwrap().contains(&format!("Default: {}.", limits.scene.overlap_tolerance)));
     let grouped = |number: usize| format!("{},{:03},{:03}", number / 1_000_000, number / 1000 % 1000, number % 1000);
     assert!(COMMITTED.contains(&grouped(ServerSettings::default().max_body_bytes)));
 }

@@ -107,7 +107,7 @@ async fn a_service_drains_within_its_time_with_any_client_connected() {
 }
 
 #[tokio::test]
-async fn nobody_who_asks_nothing_keeps_a_service_from_its_end() {
+async fn idle_connections_do_not_delay_the_end_of_a_service() {
     let host = Host::with(draining_within(2 * PATIENCE), Engine::default()).await;
     let idle = idle_clients(&host).await;
     host.ask_to_stop();

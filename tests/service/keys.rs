@@ -168,7 +168,7 @@ async fn each_scope_opens_what_the_document_says_and_nothing_else() {
 }
 
 #[tokio::test]
-async fn whatever_is_no_key_is_refused_in_the_same_words() {
+async fn every_wrong_key_gets_the_same_refusal() {
     let right = key("a", "plan", OFTEN);
     let guarded = Guarded::start("wrong", &[&right]).await;
     let bearer = |text: &str| format!("Bearer {text}");
@@ -286,7 +286,7 @@ async fn a_caller_who_asks_too_often_is_told_when_to_come_again() {
 }
 
 #[tokio::test]
-async fn a_replaced_file_lets_others_in_and_shuts_out_who_is_gone() {
+async fn a_replaced_file_admits_new_keys_and_refuses_removed_ones() {
     let [stays, goes, comes] = ["a", "b", "c"].map(|name| key(name, "plan", OFTEN));
     let guarded = Guarded::start("replaced", &[&stays, &goes]).await;
     let until = async |key: &FreshKey, status: u16| {

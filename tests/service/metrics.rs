@@ -187,7 +187,7 @@ async fn a_server_measures_its_own_requests_and_no_other_servers() {
 }
 
 #[tokio::test]
-async fn nothing_that_clients_make_up_becomes_a_label() {
+async fn no_label_holds_text_that_a_client_chooses() {
     let host = Host::start().await;
     for name in ["one", "two", "three"] {
         assert_eq!(host.get(&format!("/docs/{name}")).await.status, 404);
@@ -220,7 +220,7 @@ async fn until(host: &Host, condition: impl Fn(&BTreeMap<String, Family>) -> boo
 }
 
 #[tokio::test]
-async fn what_is_turned_away_and_who_hangs_up_is_counted() {
+async fn refused_requests_and_hang_ups_are_counted() {
     let settings = ServerSettings { threads: 1, queue: 0, ..ServerSettings::default() };
     let engine = Engine {
         survey: |_, budget| {

@@ -25,7 +25,7 @@ async fn an_answer_is_json_unless_the_client_likes_a_drawing_better() {
 }
 
 #[tokio::test]
-async fn what_can_not_be_served_is_a_406() {
+async fn an_accept_without_any_available_format_is_a_406() {
     let host = Host::start().await;
     accepting(&host, "/v1/plans", "text/html").await.is_problem(406, "not_acceptable");
     accepting(&host, "/v1/survey", "image/svg+xml").await.is_problem(406, "not_acceptable");

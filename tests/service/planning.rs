@@ -63,7 +63,7 @@ async fn a_full_service_says_when_to_come_again() {
 }
 
 #[tokio::test]
-async fn what_a_full_service_refuses_it_has_not_read() {
+async fn a_full_service_refuses_without_reading_the_body() {
     static RUNNING: AtomicUsize = AtomicUsize::new(0);
     let host = Host::with(ONE_THREAD(0), endless!(RUNNING)).await;
     let faulty = json!({"settings": {"time_limit_ms": 1000}});
@@ -140,7 +140,7 @@ async fn an_answer_that_fails_its_check_is_withheld() {
 }
 
 #[tokio::test]
-async fn what_would_come_too_late_is_refused_at_once_and_told_when_to_come_again() {
+async fn a_plan_that_would_come_too_late_gets_a_503_with_retry_after() {
     static RUNNING: AtomicUsize = AtomicUsize::new(0);
     let host = Host::with(ONE_THREAD(4), endless!(RUNNING)).await;
     // Now it is known that a computation takes some 60 ms.

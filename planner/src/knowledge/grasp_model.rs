@@ -4,7 +4,7 @@ use super::options::{Blocker, minimal_options};
 use crate::geometry::{ArcSet, shadow};
 use crate::scene::{Footprint, Gripper, ObjectIndex, Scene};
 
-/// A model of grasping. Knowledge and placement ask it; the checker takes none, since it knows the swept finger only.
+/// A model of grasping, for knowledge and placement. The checker uses only the swept finger and takes no model.
 pub trait GraspModel: Sync {
     /// The yaws of a grasp of `grasped` that `obstacle` blocks, when the fingers must stay the gripper's margin plus
     /// `extra` (m) away from it. Empty for obstacles beyond [`GraspModel::reach`].

@@ -1,4 +1,4 @@
-//! Locks: sets of objects that hold each other.
+//! Locks: sets of objects that block each other.
 //!
 //! A set is a lock if every option of every movable member holds a member: then no member can be the first to be
 //! grasped. The objects that forward chaining does not derive are the greatest lock.

@@ -24,7 +24,7 @@ enum Turn {
     Start,
 }
 
-struct Event {
+struct SweepEvent {
     yaw: f64,
     turn: Turn,
     blocker: usize,
@@ -44,8 +44,8 @@ pub fn minimal_options(blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<Obj
             None => depth[at] = 1,
             Some(arcs) => {
                 for (start, end) in arcs {
-                    events.push(Event { yaw: start, turn: Turn::Start, blocker: at });
-                    events.push(Event { yaw: end, turn: Turn::End, blocker: at });
+                    events.push(SweepEvent { yaw: start, turn: Turn::Start, blocker: at });
+                    events.push(SweepEvent { yaw: end, turn: Turn::End, blocker: at });
                     depth[at] += u32::from(end <= start);
                 }
             }
@@ -58,7 +58,7 @@ pub fn minimal_options(blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<Obj
     sweep(blockers, &events, depth)
 }
 
-fn sweep(blockers: &[Blocker], events: &[Event], mut depth: Vec<u32>) -> Vec<Vec<ObjectIndex>> {
+fn sweep(blockers: &[Blocker], events: &[SweepEvent], mut depth: Vec<u32>) -> Vec<Vec<ObjectIndex>> {
     let current = |depth: &[u32]| -> Vec<ObjectIndex> {
         blockers.iter().zip(depth).filter(|(_, depth)| **depth > 0).map(|(blocker, _)| blocker.object).collect()
     };
@@ -80,8 +80,8 @@ fn sweep(blockers: &[Blocker], events: &[Event], mut depth: Vec<u32>) -> Vec<Vec
     options
 }
 
-/// The shadow's arcs widened by half of `width` on each side, as (start, end) in [0, period); `end` ≤ `start` where one
-/// runs over 0. `None` if too little is left free.
+/// The shadow's arcs widened by half of `width` on each side, as (start, end) in [0, period). An arc across 0 has `end` ≤
+/// `start`. `None` if no free gap is wide enough.
 fn widened(shadow: &ArcSet, width: f64) -> Option<Vec<(f64, f64)>> {
     let period = shadow.period();
     let gaps: Vec<_> = shadow.free().filter(|gap| gap.width >= width).collect();

@@ -34,7 +34,7 @@ pub struct Task<'a> {
 pub struct Arrangement {
     /// In order.
     pub relocations: Vec<Relocation>,
-    /// How the target is grasped at the end.
+    /// The grasp of the target at the end.
     pub target_grasp: Grasp,
 }
 

@@ -44,7 +44,7 @@ pub(super) struct Candidates {
     expanded: Vec<bool>,
     /// The same per keep-out.
     expanded_areas: Vec<bool>,
-    heap: BinaryHeap<Entry>,
+    heap: BinaryHeap<HeapEntry>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,15 +57,15 @@ enum Kind {
 /// An entry of the heap. Higher scores come first, among equals smaller coordinates, so that the order is the same on
 /// every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Entry {
+struct HeapEntry {
     score: f64,
     at: Point2<f64>,
     kind: Kind,
 }
 
-impl Eq for Entry {}
+impl Eq for HeapEntry {}
 
-impl Ord for Entry {
+impl Ord for HeapEntry {
     fn cmp(&self, other: &Self) -> Ordering {
         let key = |entry: &Self| (entry.kind != Kind::Place, entry.score);
         let ((curve, score), (other_curve, other_score)) = (key(self), key(other));
@@ -77,7 +77,7 @@ impl Ord for Entry {
     }
 }
 
-impl PartialOrd for Entry {
+impl PartialOrd for HeapEntry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -186,7 +186,7 @@ impl Candidates {
     }
 
     fn add_place(&mut self, at: Point2<f64>) {
-        self.heap.push(Entry { score: self.score(at), at, kind: Kind::Place });
+        self.heap.push(HeapEntry { score: self.score(at), at, kind: Kind::Place });
     }
 
     /// The distance of the object's origin from the table's edge and from keep-outs, m.
@@ -209,7 +209,7 @@ impl Candidates {
                 }
                 Objective::ShortMoves => -(area.distance(self.origin) - keep).max(0.0),
             };
-            self.heap.push(Entry { score, at: area.min(), kind: Kind::KeepOut(at) });
+            self.heap.push(HeapEntry { score, at: area.min(), kind: Kind::KeepOut(at) });
         }
     }
 
@@ -221,7 +221,7 @@ impl Candidates {
                 Objective::FarFromTarget => border.farthest(self.origin),
                 Objective::ShortMoves => -border.nearest_of_circles(self.origin),
             };
-            self.heap.push(Entry { score, at, kind: Kind::Obstacle(object) });
+            self.heap.push(HeapEntry { score, at, kind: Kind::Obstacle(object) });
         }
     }
 
@@ -276,13 +276,13 @@ mod tests {
     use crate::scene::scenes::TestScene;
 
     #[test]
-    fn of_places_of_one_score_as_many_stay_as_may() {
+    fn places_beyond_the_limit_are_forgotten_even_with_equal_scores() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
         let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
         let mut candidates = Candidates::empty(&Layout::new(&scene, &SweptFinger), spec);
-        let place = |n: u32| Entry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
-        let curve = Entry { kind: Kind::Obstacle(object), ..place(0) };
+        let place = |n: u32| HeapEntry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
+        let curve = HeapEntry { kind: Kind::Obstacle(object), ..place(0) };
         let many = u32::try_from(MANY).unwrap();
         candidates.heap.extend((0..=many).map(place).chain([curve]));
         candidates.forget_worst();

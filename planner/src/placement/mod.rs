@@ -50,9 +50,9 @@ pub struct Relocation {
     pub from: Pose,
     /// Where it is put.
     pub to: Pose,
-    /// How it is picked.
+    /// The grasp at the old place.
     pub grasp: Grasp,
-    /// How it is let go.
+    /// The release at the new place.
     pub release: Grasp,
     /// Least distance to another object at the new place, edge to edge, m.
     pub gap: f64,

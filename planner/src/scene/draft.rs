@@ -46,9 +46,9 @@ pub struct GripperDraft {
     pub finger_width: Option<f64>,
     /// c, m.
     pub clearance: Option<f64>,
-    /// m; 0 where the caller names none.
+    /// m. Default: 0.
     pub margin: Option<f64>,
-    /// rad; 0 where the caller names none.
+    /// rad. Default: 0.
     pub yaw_tolerance: Option<f64>,
 }
 

@@ -162,7 +162,7 @@ pub enum Flaw {
 /// The likely cause of a fault, as the end of its sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Likely {
-    /// None stands out.
+    /// No single cause is likely.
     Open,
     /// The objects are given in another unit, or in another frame than the table.
     FrameOrUnit,
@@ -213,7 +213,7 @@ pub struct Finding {
     pub flaw: Flaw,
 }
 
-/// A list of findings with at most [`MAX_FINDINGS`] entries: nobody reads more.
+/// A list of findings with at most [`MAX_FINDINGS`] entries.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     list: Vec<Finding>,

@@ -1,4 +1,4 @@
-//! What an object covers of the table: its shape, and where that stands.
+//! The footprint of an object on the table: its shape and its pose.
 
 use nalgebra::Point2;
 

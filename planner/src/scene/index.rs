@@ -9,12 +9,12 @@ use super::footprint::Footprint;
 use super::object::ObjectIndex;
 
 /// An entry keeps the footprint beside its bounds, so that a query needs no second look-up.
-type Entry = GeomWithData<Rectangle<[f64; 2]>, (ObjectIndex, Footprint)>;
+type IndexEntry = GeomWithData<Rectangle<[f64; 2]>, (ObjectIndex, Footprint)>;
 
 /// The index of a scene's objects at the start.
 #[derive(Debug, Clone)]
 pub struct FootprintIndex {
-    tree: RTree<Entry>,
+    tree: RTree<IndexEntry>,
 }
 
 impl FootprintIndex {

@@ -33,7 +33,7 @@ fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
 }
 
 #[test]
-fn what_a_restriction_requires_is_counted() {
+fn required_objects_count_towards_the_set() {
     let options: Vec<Vec<Vec<usize>>> =
         [vec![(1..=2000).collect()]].into_iter().chain((0..2000).map(|_| vec![vec![]])).collect();
     let base = base(&options);

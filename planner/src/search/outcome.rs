@@ -52,10 +52,10 @@ pub struct Incumbent {
     pub lower_bound: Cost,
 }
 
-/// Is told of every incumbent, of some of them twice.
+/// A callback for every incumbent. Some are reported twice.
 pub type Progress<'a> = &'a dyn Fn(Incumbent);
 
-/// Nobody is told.
+/// A callback that does nothing.
 pub const SILENT: Progress<'static> = &|_| {};
 
 /// A narrower question, to enumerate sets in order of their cost.

@@ -72,7 +72,7 @@ fn an_object_needed_at_two_depths_is_no_cycle() {
 }
 
 #[test]
-fn what_needs_the_target_gone_is_no_way_to_the_target() {
+fn an_option_that_needs_the_target_gone_is_useless() {
     assert_eq!(check(&[vec![vec![1]], vec![vec![0]]], 0), None);
     let found = check(&[vec![vec![1]], vec![vec![0], vec![2]], vec![vec![]]], 0).expect("derivable");
     assert_eq!(found.bound, Cost::new(2));
@@ -117,7 +117,7 @@ fn preprocessed(options: &[Vec<Vec<usize>>]) -> (usize, Vec<usize>) {
 }
 
 #[test]
-fn what_all_ways_share_is_a_fact_landmark() {
+fn an_object_of_every_derivation_is_a_fact_landmark() {
     // t←{a} or {b}, a←{c}, b←{c}, c free.
     assert_eq!(preprocessed(&[vec![vec![1], vec![2]], vec![vec![3]], vec![vec![3]], vec![vec![]]]), (3, vec![3]));
 }

@@ -35,20 +35,20 @@ type Read = fn(&[u8], &RequestLimits) -> Result<Vec<JobRequest>, Problem>;
 
 /// Plan later
 ///
-/// Accepts a scene and returns at once; the job is on disk by then. With an `Idempotency-Key` the same request can be
-/// repeated and is accepted once, as long as the job is kept.
+/// Accepts a scene and answers at once. The job is on disk by then. A request with an `Idempotency-Key` can be
+/// repeated: it is accepted only once, as long as its job is kept.
 #[utoipa::path(
     post,
     path = "/v1/jobs",
     operation_id = "submit_job",
     tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header, max_length = 255,
-        description = "The caller's name for the request; with the same body it is the same job.")),
+        description = "The caller's name for the request. The same key with the same body gives the same job.")),
     request_body(content = JobSceneBody, content_type = "application/json", description = "The scene and how to plan."),
     responses(
         (status = 202, description = "The job.", body = JobBody, content_type = "application/json",
-         headers(("Location" = String, description = "Where the job is."),
-                 ("Retry-After" = u32, description = "When to look, s."))),
+         headers(("Location" = String, description = "The path of the job."),
+                 ("Retry-After" = u32, description = "Seconds to wait before asking for the job."))),
         RequestProblems,
     )
 )]
@@ -72,11 +72,11 @@ pub(in crate::api) async fn submit(
     operation_id = "submit_jobs",
     tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header, max_length = 255,
-        description = "The caller's name for the request; with the same body it is the same jobs.")),
+        description = "The caller's name for the request. The same key with the same body gives the same jobs.")),
     request_body(content = BatchBody, content_type = "application/json", description = "The scenes."),
     responses(
         (status = 202, description = "The jobs, in the order of the scenes.", body = JobsBody,
-         content_type = "application/json", headers(("Retry-After" = u32, description = "When to look, s."))),
+         content_type = "application/json", headers(("Retry-After" = u32, description = "Seconds to wait before asking for the job."))),
         RequestProblems,
     )
 )]
@@ -89,18 +89,18 @@ pub(in crate::api) async fn batch(
     Ok(accepted(None, JobsBody { jobs: jobs.iter().map(Job::body).collect() }))
 }
 
-/// The jobs
+/// List jobs
 ///
-/// The caller's own, the latest first, without their results.
+/// The caller's own jobs, the latest first, without their results.
 #[utoipa::path(
     get,
     path = "/v1/jobs",
     operation_id = "list_jobs",
     tag = "jobs",
     params(
-        ("state" = Option<crate::wire::JobStateWord>, Query, description = "Only those in this state."),
-        ("cursor" = Option<String>, Query, description = "The `next_cursor` of the page before."),
-        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "At most so many; 20 where absent."),
+        ("state" = Option<crate::wire::JobStateWord>, Query, description = "Only jobs in this state."),
+        ("cursor" = Option<String>, Query, description = "The `next_cursor` of the previous page."),
+        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "The most jobs on a page. Default: 20."),
     ),
     responses(
         (status = 200, description = "One page.", body = JobListBody, content_type = "application/json"),
@@ -115,7 +115,7 @@ pub(in crate::api) async fn list(
     let parameters = parameters.only(&["state", "cursor", "limit"])?;
     let states = JobState::ALL.map(JobState::as_str).join(", ");
     let state = parameters.read("state", format_args!("one of {states}"), |text| text.parse().ok())?;
-    let before = parameters.read("cursor", "the `next_cursor` of the page before", |text| text.parse().ok())?;
+    let before = parameters.read("cursor", "the `next_cursor` of the previous page", |text| text.parse().ok())?;
     let limit = parameters.number("limit", 1..=MAX_PAGE)?.unwrap_or(DEFAULT_PAGE);
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     // One more, to see whether there is a next page.
@@ -140,7 +140,7 @@ async fn take(
     let body = calls.bodies.receive(request).await?;
     let _submitting = match timeout(SUBMIT_PATIENCE, calls.submitting.acquire()).await {
         Ok(Ok(place)) => place,
-        _ => return Err(calls.too_many("as many requests hand in jobs as may; nothing of this one was kept")),
+        _ => return Err(calls.too_many("too many requests submit jobs at a time; this one was not accepted")),
     };
     let (own, allow) = (owner.clone(), calls.callback_allow.clone());
     let new = move |body: &[u8], limits: &RequestLimits| {

@@ -24,12 +24,12 @@ use crate::wire::{JobBody, Problem};
 
 const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
 
-/// What happens to a job
+/// Follow a job
 ///
-/// Server-sent events `queued`, `running`, `incumbent` and `finished`, from the first on, each with its number as `id`. The
-/// schema is that of one event's data: the job as it stood then. The stream ends with `finished`, or with `draining`, which
-/// has no number, where the service shuts down: come again with `Last-Event-ID`, at any server. 204 where nothing more will
-/// come.
+/// Sends the server-sent events `queued`, `running`, `incumbent` and `finished`, beginning with the first. The number
+/// of an event is its `id`, its data is the job at that moment. The stream ends with `finished`. If the service shuts
+/// down it ends with `draining`, which has no number: connect again to any server, with `Last-Event-ID`. A 204 means
+/// that no more events will come.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/events",
@@ -37,10 +37,10 @@ const LAST_EVENT_ID: HeaderName = HeaderName::from_static("last-event-id");
     tag = "jobs",
     params(
         ("id" = String, Path, description = "The job."),
-        ("Last-Event-ID" = Option<String>, Header, description = "The last event that was received; only later ones come."),
+        ("Last-Event-ID" = Option<String>, Header, description = "The `id` of the last event that was received. Only later events are sent."),
     ),
     responses(
-        (status = 200, description = "The events; the schema is that of one event's data.", body = JobBody, content_type = "text/event-stream"),
+        (status = 200, description = "The events. The schema describes the data of one event.", body = JobBody, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and all its events were received."),
         OneJobProblems,
     )
@@ -60,7 +60,7 @@ pub(in crate::api) async fn events(
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
     let slot = Arc::clone(&calls.streams).try_acquire_owned();
-    let slot = slot.map_err(|_| calls.too_many("as many clients listen to jobs as may; ask for the job instead"))?;
+    let slot = slot.map_err(|_| calls.too_many("too many clients follow jobs; ask for the job instead"))?;
     let listener = Listener::new(Arc::clone(&calls.running), caller, (job, seen), slot);
     Ok(Sse::new(listener.messages()).keep_alive(KeepAlive::default()).into_response())
 }

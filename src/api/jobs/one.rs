@@ -26,9 +26,9 @@ const MAX_WAIT_MS: u64 = 60_000;
 /// from the store.
 pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
 
-/// How does a job stand?
+/// Show a job
 ///
-/// With `wait_ms` the answer waits until the job has ended, but not longer.
+/// With `wait_ms` the answer comes when the job has ended or the wait is over.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
@@ -36,7 +36,7 @@ pub(super) const LOOK_AGAIN: Duration = Duration::from_secs(3);
     tag = "jobs",
     params(
         ("id" = String, Path, description = "The job."),
-        ("wait_ms" = Option<u32>, Query, minimum = 0, maximum = 60000, description = "How long to wait for its end, ms."),
+        ("wait_ms" = Option<u32>, Query, minimum = 0, maximum = 60000, description = "How long to wait for the job's end, ms."),
     ),
     responses(
         (status = 200, description = "The job.", body = JobBody, content_type = "application/json"),
@@ -61,7 +61,7 @@ pub(in crate::api) async fn show(
 
 /// Cancel a job
 ///
-/// A queued job is cancelled at once; one that runs stops and keeps the best so far as its result.
+/// A queued job is cancelled at once. A running job stops and keeps its best answer so far as its result.
 #[utoipa::path(
     post,
     path = "/v1/jobs/{id}/cancel",
@@ -69,9 +69,9 @@ pub(in crate::api) async fn show(
     tag = "jobs",
     params(("id" = String, Path, description = "The job.")),
     responses(
-        (status = 202, description = "It is cancelled, or will be at once.", body = JobBody,
+        (status = 202, description = "The job is cancelled, or will be in a moment.", body = JobBody,
          content_type = "application/json"),
-        (status = 409, description = "It had ended before.", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The job had already ended.", body = Problem, content_type = "application/problem+json"),
         OneJobProblems,
     )
 )]
@@ -85,7 +85,7 @@ pub(in crate::api) async fn cancel(
     let cancelled = store.cancel(&caller.owner, id, Timestamp::now()).await;
     match cancelled.map_err(|error| calls.unavailable(&error))? {
         Cancellation::Unknown => Err(no_such_job()),
-        Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "nothing is left to be cancelled")),
+        Cancellation::Finished => Err(Problem::new(ProblemKind::JobFinished, "an ended job can't be cancelled")),
         Cancellation::Accepted(job) => {
             runner.cancel(id);
             if job.state == JobState::Cancelled {
@@ -97,9 +97,9 @@ pub(in crate::api) async fn cancel(
     }
 }
 
-/// Forget a job
+/// Delete a job
 ///
-/// The job, its result and its idempotency key are gone. It must have ended.
+/// Deletes the job, its result and its idempotency key. The job must have ended.
 #[utoipa::path(
     delete,
     path = "/v1/jobs/{id}",
@@ -107,8 +107,8 @@ pub(in crate::api) async fn cancel(
     tag = "jobs",
     params(("id" = String, Path, description = "The job.")),
     responses(
-        (status = 204, description = "It is forgotten."),
-        (status = 409, description = "It has not ended; cancel it first.", body = Problem,
+        (status = 204, description = "The job is deleted."),
+        (status = 409, description = "The job has not ended. Cancel it first.", body = Problem,
          content_type = "application/problem+json"),
         OneJobProblems,
     )
@@ -136,7 +136,7 @@ pub(super) async fn find(calls: &JobCalls, owner: &Owner, id: JobId) -> Result<J
 async fn wait_for(calls: &JobCalls, caller: &Caller, id: JobId, wait: Duration) -> Result<Job, Problem> {
     let started = Instant::now();
     let waiting = calls.waiting.try_acquire();
-    let _waiting = waiting.map_err(|_| calls.too_many("as many clients wait for jobs as may; ask without waiting"))?;
+    let _waiting = waiting.map_err(|_| calls.too_many("too many clients wait for jobs; ask without `wait_ms`"))?;
     let Running { store, draining, .. } = &*calls.running;
     let watcher = store.hints().watch(id);
     loop {

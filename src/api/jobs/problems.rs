@@ -32,7 +32,7 @@ impl JobCalls {
         match error {
             SubmitError::Full => {
                 self.running.metrics.refused(Refusal::Full);
-                Problem::new(ProblemKind::Overloaded, "as many jobs wait as may")
+                Problem::new(ProblemKind::Overloaded, "the queue of jobs is full")
             }
             SubmitError::KeyReused => Problem::new(ProblemKind::KeyReused, "this key came with another body before"),
             SubmitError::Store(error) => self.unavailable(&error),
@@ -42,12 +42,12 @@ impl JobCalls {
 
 /// The store did not answer.
 fn unanswered() -> Problem {
-    Problem::new(ProblemKind::StoreUnavailable, "what was asked for may have happened; ask again")
+    Problem::new(ProblemKind::StoreUnavailable, "the call may have taken effect all the same; repeat it")
 }
 
 /// There is no such job.
 pub(super) fn no_such_job() -> Problem {
-    let detail = "there is no job of this name, or no longer";
+    let detail = "there is no job with this id, or it is no longer kept";
     Problem::new(ProblemKind::NotFound, detail).with_title("There is no such job")
 }
 

@@ -34,7 +34,7 @@ impl Parameters {
                 ));
             }
             if self.0[..at].iter().any(|(other, _)| other == name) {
-                return Err(invalid(ErrorCode::RepeatedParameter, format_args!("'{name}' is there twice")));
+                return Err(invalid(ErrorCode::RepeatedParameter, format_args!("'{name}' is repeated")));
             }
         }
         Ok(self)
@@ -53,7 +53,7 @@ impl Parameters {
         let Some((_, text)) = self.0.iter().find(|(other, _)| other == name) else { return Ok(None) };
         read(text)
             .map(Some)
-            .ok_or_else(|| invalid(ErrorCode::OutOfRange, format_args!("the parameter '{name}' is to be {expected}")))
+            .ok_or_else(|| invalid(ErrorCode::OutOfRange, format_args!("the parameter '{name}' must be {expected}")))
     }
 
     /// An integer.

@@ -111,7 +111,7 @@ fn a_deadlock_names_those_that_lock_each_other() {
          plate-2\n\
          vase     fixed\n\
          \n\
-         Out of reach for good as well: b\\u{{1b}}[2J\n\
+         Also locked: b\\u{{1b}}[2J\n\
          \n\
          {TIMES}"
     );
@@ -136,7 +136,7 @@ fn without_a_plan_the_bound_and_the_needed_order_are_told() {
          Every plan moves at least one of: plate-2, b\\u{{1b}}[2J\n\
          So at least 1 must move.\n\
          \n\
-         This is no proof: the places that were tried do not suffice, others may.\n\
+         This is not a proof: only the places that were tried do not suffice.\n\
          \n\
          {TIMES}"
     );

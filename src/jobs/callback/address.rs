@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_that_holds_another_is_as_public_as_that() {
+    fn an_embedded_address_decides_whether_its_holder_is_public() {
         let holders: [fn(u16, u16) -> String; 3] = [
             |high, low| format!("::ffff:{high:x}:{low:x}"),
             |high, low| format!("64:ff9b::{high:x}:{low:x}"),
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn forms_that_nobody_serves_from_are_not_public_whatever_they_hold() {
+    fn tunnel_and_local_addresses_are_not_public() {
         // Compatible, Teredo, NAT64 for local use, the discard prefix, link-local, unique-local, multicast.
         let texts = ["::8.8.8.8", "2001:0:808:808::f7f7:f7f7", "64:ff9b:1::808:808", "100::1", "fe80::1", "fec0::1"];
         for text in texts.into_iter().chain(["fc00::1", "fd00:ec2::254", "ff02::1", "::1", "::"]) {

@@ -15,10 +15,10 @@ use super::destination::{CallbackFault, CallbackUrl};
 /// A host is listed by its name. The addresses of the name must be public too, unless they are listed themselves: the
 /// owner of a name must not choose machines in the operator's network.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct CallbackAllow(Vec<Entry>);
+pub struct CallbackAllow(Vec<AllowedHost>);
 
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Entry {
+enum AllowedHost {
     /// This name. `localhost` stands for the loopback addresses too.
     Name(String),
     /// Every name that ends in this one and is longer.
@@ -68,7 +68,7 @@ impl CallbackAllow {
     }
 }
 
-impl Entry {
+impl AllowedHost {
     fn names(&self, host: &str) -> bool {
         let host = host.strip_suffix('.').unwrap_or(host);
         match self {
@@ -104,7 +104,7 @@ impl FromStr for CallbackAllow {
     }
 }
 
-impl FromStr for Entry {
+impl FromStr for AllowedHost {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -144,7 +144,7 @@ impl fmt::Display for CallbackAllow {
     }
 }
 
-impl fmt::Display for Entry {
+impl fmt::Display for AllowedHost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Name(name) => f.write_str(name),
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_told_unless_listed() {
+    fn an_empty_allow_list_forbids_every_callback() {
         let nobody = CallbackAllow::default();
         assert_eq!(nobody.check("https://erp.example.com/"), Err(CallbackFault::Off));
         assert_eq!((allow("none"), nobody.to_string().as_str()), (nobody, "none"));

@@ -155,7 +155,7 @@ impl CallbackDelivery {
             tokio::select! {
                 Some(ended) = tries.join_next() => {
                     if let Err(error) = ended {
-                        tracing::error!(%error, "a callback's try broke off");
+                        tracing::error!(%error, "a try to deliver a callback panicked");
                     }
                 }
                 () = hint => {}

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_with_a_url_is_told_with_its_code() {
+    fn every_fault_of_a_callback_url_has_its_code() {
         let letters = format!("http://erp.example.com/{}", "é".repeat(MAX_URL_BYTES / 3));
         let long = format!("http://erp.example.com/{}", "x".repeat(MAX_URL_BYTES));
         let table = [
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_list_forbids_has_one_code() {
+    fn every_refusal_by_the_allow_list_has_the_same_code() {
         let host = "erp.example.com".to_owned();
         for fault in [CallbackFault::Off, CallbackFault::NotListed(host.clone()), CallbackFault::NotPublic(host)] {
             assert_eq!(fault.code(), ErrorCode::CallbackNotAllowed);

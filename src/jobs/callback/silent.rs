@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_silent_long_ago_is_forgotten() {
+    fn a_receiver_is_no_longer_silent_after_a_while() {
         let silent = SilentReceivers::new(REST);
         silent.note("a:80", false, second(0));
         silent.note("b:80", false, second(60));

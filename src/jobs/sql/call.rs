@@ -111,7 +111,7 @@ mod tests {
     const NO_TIME: Duration = Duration::ZERO;
 
     #[tokio::test]
-    async fn a_caller_who_gives_up_decides() {
+    async fn a_caller_who_gives_up_prevents_the_commit() {
         let (tasks, decision) = (TaskTracker::new(), Decision::default());
         let own = decision.clone();
         let task = async move {

@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_told_is_what_is_heard() {
+    fn a_notification_reads_as_it_was_written() {
         for bits in 0..8 {
             let [queued, callback, recall] = [1, 2, 4].map(|bit| bits & bit != 0);
             let told = News { id: JobId::new(), queued, callback, recall };

@@ -42,7 +42,9 @@ pub async fn open(settings: &JobSettings, metrics: Arc<Metrics>) -> Result<Arc<d
     let url = settings.url.as_str();
     let database = if url.starts_with("sqlite:") {
         sqlite(settings).await.map_err(|error| {
-            OpenError(format!("no jobs can be kept in '{url}': {error}; its folder must be there, and both writable"))
+            OpenError(format!(
+                "no jobs can be kept in '{url}': {error}; its folder must exist, and file and folder must be writable"
+            ))
         })?
     } else if url.starts_with("postgres://") || url.starts_with("postgresql://") {
         // The address may hold a password.

@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_what_is_read() {
+    fn an_event_line_reads_as_it_was_written() {
         let incumbents = [None, Some(Incumbent { cost: Cost::new(7), lower_bound: Cost::new(2) })];
         let at = Timestamp::from_millis(-42);
         let events: Vec<Event> = KINDS
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_event_is_not_read() {
+    fn a_malformed_event_line_is_refused() {
         for lines in [
             "waiting 1 0\n",
             "queued 1\n",

@@ -55,7 +55,7 @@ fn every_number_that_is_none_is_told_and_the_slip_behind_them_too() {
     );
     assert!(problem.errors()[2].detail.ends_with("a comment stands at line 8 column 17; JSON has no comments"));
     let many = format!("[{}0]", "NaN,".repeat(2000));
-    assert_eq!(refused(many.as_bytes()).errors().len(), path::MAX_FAULTS);
+    assert_eq!(refused(many.as_bytes()).errors().len(), path::MAX_ERRORS);
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn an_object_without_a_name_that_can_be_shown_is_told_by_its_pointer() {
 }
 
 #[test]
-fn what_other_languages_allow_is_named() {
+fn syntax_of_other_languages_is_named() {
     let comment = |place| format!("a comment stands at {place}; JSON has no comments");
     says("// a scene\n{}", &comment("line 1 column 1"));
     says("{\n  # a scene\n}", &comment("line 2 column 3"));
@@ -102,7 +102,7 @@ fn digits_that_are_no_number_hide_no_slip_behind_them() {
 }
 
 #[test]
-fn what_is_no_utf_8_is_named() {
+fn a_body_that_is_not_utf_8_is_named() {
     let wide = |bytes: fn(u16) -> [u8; 2], mark: bool| -> Vec<u8> {
         let mark = mark.then_some(0xfeff);
         mark.into_iter().chain(SCENE.encode_utf16()).flat_map(bytes).collect()
@@ -110,20 +110,23 @@ fn what_is_no_utf_8_is_named() {
     for bytes in [u16::to_le_bytes, u16::to_be_bytes] {
         for mark in [true, false] {
             let problem = refused(&wide(bytes, mark));
-            assert_eq!(problem.detail(), "the body is not JSON: it is a text in UTF-16; send UTF-8");
+            assert_eq!(problem.detail(), "the body is not JSON: it is encoded in UTF-16; send UTF-8");
         }
     }
     let utf_32: Vec<u8> = SCENE.chars().flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
     assert!(refused(&utf_32).detail().contains("UTF-32"));
-    says("\u{feff}{}", "it begins with a byte order mark; send UTF-8 without");
+    says("\u{feff}{}", "it begins with a byte order mark; send UTF-8 without it");
     let latin_1: Vec<u8> = SCENE.chars().map(|letter| u8::try_from(letter).unwrap()).collect();
     assert_eq!(refused(&latin_1).detail(), "the body is not JSON: the byte 0xfc at line 6 column 48 is not UTF-8");
-    assert_eq!(refused(b"\x1f\x8b\x08").detail(), "the body is not JSON: it is compressed by gzip; send it as it is");
+    assert_eq!(
+        refused(b"\x1f\x8b\x08").detail(),
+        "the body is not JSON: it is compressed by gzip; send it uncompressed"
+    );
     assert_eq!(refused(b" \r\n").detail(), "the body is empty");
 }
 
 #[test]
-fn for_anything_else_the_words_of_the_json_library_do() {
+fn any_other_syntax_error_has_the_json_librarys_message() {
     says("{\n \"table\": }", "expected value at line 2 column 11");
     says("{\"a\": 1 \"b\": 2}", "expected `,` or `}` at line 1 column 9");
     says("{} {}", "trailing characters at line 1 column 4");

@@ -37,7 +37,7 @@ fn discs_that_touch_in_decimals_do_not_overlap() {
 }
 
 #[test]
-fn an_overlap_that_is_told_is_never_told_as_nothing() {
+fn a_reported_overlap_is_never_shown_as_zero() {
     for depth in [1e-9, 1e-7, 4.9e-7, 5.1e-7, 1e-6, 2e-5, 1e-3] {
         let warnings = read(&overlapping(depth).to_string()).unwrap().warnings;
         assert_eq!(warnings.is_empty(), depth < 5e-7, "{depth}");

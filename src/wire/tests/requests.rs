@@ -206,7 +206,7 @@ fn every_fault_is_told_at_once() {
 fn the_list_of_faults_ends_at_a_thousand() {
     let objects: Vec<Value> = (0..2000).map(|_| json!({})).collect();
     let problem = read(&with("/objects", json!(objects)).to_string()).unwrap_err();
-    assert_eq!(problem.errors().len(), path::MAX_FAULTS);
+    assert_eq!(problem.errors().len(), path::MAX_ERRORS);
 }
 
 #[test]

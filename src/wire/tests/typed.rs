@@ -83,7 +83,7 @@ fn compare(scene: &str) {
 
 proptest! {
     #[test]
-    fn what_the_straight_way_takes_the_walk_takes_too(edits in subsequence(&EDITS[..], 0..=3)) {
+    fn typed_reading_and_the_walk_agree_on_edited_bodies(edits in subsequence(&EDITS[..], 0..=3)) {
         let mut body = SOUND.to_owned();
         for (old, new) in edits {
             body = body.replacen(old, new, 1);
@@ -92,7 +92,7 @@ proptest! {
     }
 
     #[test]
-    fn with_any_byte_lost_or_changed_too(at in 0..SOUND.len(), byte in select(&b"{}[]\":,.eE-+0123456789 \\unl"[..]), lose: bool) {
+    fn typed_reading_and_the_walk_agree_on_damaged_bodies(at in 0..SOUND.len(), byte in select(&b"{}[]\":,.eE-+0123456789 \\unl"[..]), lose: bool) {
         let mut body = SOUND.as_bytes().to_vec();
         if lose { body.remove(at); } else { body[at] = byte; }
         compare(&String::from_utf8(body).expect("ASCII"));
@@ -123,7 +123,7 @@ fn a_plan_is_nested_as_deep_as_its_body_may_be() {
 
 /// Else all would be read the long way, and no test would tell.
 #[test]
-fn sound_bodies_go_the_straight_way() {
+fn valid_bodies_are_read_into_types_directly() {
     let limits = RequestLimits::default();
     let with_settings = with("/settings", json!({"search": "lobs", "placement": "raster", "time_limit_ms": 20.0}));
     for body in [scene(), with_settings, with("/settings", Value::Null), with("/table/keep_out", Value::Null)] {

@@ -45,7 +45,7 @@ fn receive(listener: &TcpListener) -> (String, String) {
 }
 
 #[tokio::test]
-async fn a_caller_who_asked_for_it_is_told_of_the_end_and_can_tell_who_tells() {
+async fn the_end_of_a_job_is_called_back_with_a_valid_signature() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/told?by=us", listener.local_addr().unwrap());
     let host = host("127.0.0.1").await;
@@ -63,7 +63,7 @@ async fn a_caller_who_asked_for_it_is_told_of_the_end_and_can_tell_who_tells() {
 }
 
 #[tokio::test]
-async fn nobody_else_is_told() {
+async fn a_job_with_a_forbidden_callback_is_refused() {
     let host = host("10.0.0.0/8,robots.example").await;
     for (url, code) in [
         ("http://127.0.0.1:1/", "callback_not_allowed"),

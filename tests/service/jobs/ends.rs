@@ -81,7 +81,7 @@ async fn a_panic_is_one_failed_job_and_its_worker_lives_on() {
 }
 
 #[tokio::test]
-async fn only_what_has_ended_is_forgotten() {
+async fn only_ended_jobs_are_deleted() {
     let host = one_worker(endless()).await;
     let job = submit(&host, &scene(60_000)).await;
     let delete = || async { host.client.delete(host.url(&path(&job))).send().await.unwrap().status().as_u16() };

@@ -41,7 +41,7 @@ async fn parameters_that_make_no_sense_are_named() {
         ("/v1/jobs?state=done", "queued, running"),
         ("/v1/jobs?cursor=5", "'cursor'"),
         ("/v1/jobs?order=up", "'order'"),
-        ("/v1/jobs?limit=5&limit=6", "twice"),
+        ("/v1/jobs?limit=5&limit=6", "repeated"),
         (&format!("{job}?wait_ms=60001"), "'wait_ms'"),
         (&format!("{job}?wait_ms=-1"), "'wait_ms'"),
         (&format!("{job}?wait=5"), "'wait'"),

@@ -31,7 +31,7 @@ async fn a_plan_comes_over_tls() {
 }
 
 #[tokio::test]
-async fn http_1_1_is_chosen_and_who_speaks_only_another_protocol_is_refused() {
+async fn alpn_chooses_http_1_1_and_refuses_other_protocols() {
     let authority = Authority::new("alpn");
     let host = secure_host(&authority, ServerSettings::default(), Engine::default()).await;
     for (offered, chosen) in [(&["h2", "http/1.1"][..], Some(&b"http/1.1"[..])), (&["h2"], None), (&[], None)] {
@@ -80,7 +80,7 @@ async fn a_client_that_sends_a_large_body_in_plain_http_is_told_so_too() {
 }
 
 #[tokio::test]
-async fn what_browsers_ask_ahead_of_a_call_comes_over_tls_too_but_without_a_certificate() {
+async fn a_preflight_needs_no_client_certificate() {
     let authority = Authority::new("ahead");
     authority.write_client_ca(&[&authority]);
     let (tls, cors_origins) = (authority.service_with_client_ca(), "https://cell.example.com".parse().unwrap());

@@ -70,7 +70,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_required_need_not_be_graspable(
+    fn required_objects_need_not_be_graspable(
         options in (4_usize..11).prop_flat_map(options), one in 1_usize..4, other in 1_usize..4,
     ) {
         if let Some(found) = by_clauses(&options, &[one, other], 1000, &Budget::unlimited()) {
@@ -91,7 +91,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_required_is_not_made_graspable_at_a_cost() {
+fn no_object_is_moved_to_make_a_required_one_graspable() {
     // t←{a} or {b}, b←{c,d}, a, c and d free; b is required, and a is all that the target needs besides.
     let options = [vec![vec![1], vec![2]], vec![vec![]], vec![vec![3, 4]], vec![vec![]], vec![vec![]]];
     assert_eq!(by_clauses(&options, &[2], 1000, &Budget::unlimited()), Some((2, 2)));

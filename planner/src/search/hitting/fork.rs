@@ -24,7 +24,7 @@ pub(super) struct Parts {
     decided: Decided,
     /// All parts together must have fewer elements.
     limit: usize,
-    /// Each is moved out when it is asked for.
+    /// Each is moved out when its turn comes.
     instances: Vec<Option<Instance>>,
     /// Per part a lower bound.
     bounds: Vec<usize>,

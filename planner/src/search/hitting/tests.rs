@@ -42,7 +42,7 @@ fn check(sets: &[Vec<Node>], nodes: u32) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// So many pseudo-random sets of 2 to 4 of so many nodes.
+/// Pseudo-random sets, each of 2 to 4 of `nodes` nodes.
 fn tangle(sets: usize, nodes: Node) -> Vec<Vec<Node>> {
     let mut state = 7_u64;
     let mut below = |count: u64| {
@@ -68,7 +68,7 @@ fn a_deep_search_finds_the_same_with_little_memory() {
 }
 
 #[test]
-fn choices_that_are_spent_are_not_time() {
+fn a_spent_allowance_is_told_apart_from_ended_time() {
     let (sets, budget) = (tangle(150, 120), Budget::unlimited());
     let cut = least(&sets, 120, &mut Allowance { choices: 5, ..ALL }, &mut Ticker::new(&budget)).unwrap_err();
     assert_eq!(cut.stop, Stop::Spent);

@@ -154,7 +154,7 @@ async fn no_more_than_so_many_are_under_way() {
 }
 
 #[tokio::test]
-async fn nobody_is_told_without_a_list_and_a_secret() {
+async fn no_callback_is_made_without_a_list_and_a_secret() {
     let on = JobSettings {
         callback_allow: "erp.example.com".parse().unwrap(),
         callback_secret: Some(secret()),
@@ -170,7 +170,7 @@ async fn nobody_is_told_without_a_list_and_a_secret() {
 }
 
 #[tokio::test]
-async fn what_was_under_way_at_the_end_goes_out_after_a_restart() {
+async fn a_callback_under_way_at_a_stop_goes_out_after_the_restart() {
     let (store, receiver) = (Arc::new(Callbacks::default()), Receiver::start(&[Manner::Hang, status(200)]).await);
     let id = store.add(&receiver.url());
     let pace = Pace { lease: Duration::from_millis(50), ..pace() };
