@@ -181,7 +181,7 @@ fn times(statistics: &Statistics) -> String {
 /// The checker's report.
 pub(super) fn verification(body: &VerificationBody) -> String {
     if body.valid {
-        return "valid: the plan holds\n".to_owned();
+        return "valid: all that it states holds\n".to_owned();
     }
     let count = body.faults.len();
     let lines: String = body.faults.iter().map(|fault| self::fault(fault) + "\n").collect();

@@ -4,11 +4,11 @@ use nalgebra::Point2;
 use svg::node::element::{Group, Line, Rectangle};
 
 use super::label;
-use super::moves::badge;
-use super::paint::{self, Paint, px, ring};
+use super::moves::{self, badge};
+use super::paint::{self, Paint, Sign, px, ring};
 use super::view::{PADDING, View};
 use singulate_planner::scene::Scene;
-use singulate_planner::statement::{Statement, Step};
+use singulate_planner::statement::Statement;
 
 /// Size of the letters, px.
 const SIZE: f64 = 12.0;
@@ -23,17 +23,6 @@ pub(super) struct Legend {
     pub(super) drawing: Group,
     /// px.
     pub(super) height: f64,
-}
-
-/// The shape of a sign.
-#[derive(Debug, Clone, Copy)]
-enum Sign {
-    Disc(Paint),
-    DoubleRing(Paint),
-    Dashed,
-    Number(Paint),
-    Finger(Paint),
-    Hatch,
 }
 
 /// The scale bar, then the symbols that occur, line by line.
@@ -61,17 +50,7 @@ fn signs(scene: &Scene, stated: &Statement) -> Vec<(Sign, &'static str)> {
     if !scene.table().keep_out().is_empty() {
         signs.push((Sign::Hatch, "nothing may be placed here"));
     }
-    for step in stated.steps().iter().take(1) {
-        match step {
-            Step::PickPlace(_) => signs.extend([
-                (Sign::Dashed, "old place"),
-                (Sign::Disc(paint::MOVED), "new place"),
-                (Sign::Number(paint::MOVED), "order"),
-                (Sign::Finger(paint::GRASP), "fingers picking"),
-                (Sign::Finger(paint::RELEASE), "fingers releasing"),
-            ]),
-        }
-    }
+    signs.extend(stated.steps().first().map(moves::signs).unwrap_or_default());
     if stated.target_grasp.is_some() {
         signs.push((Sign::Finger(paint::TARGET_GRASP), "fingers at the target"));
     }

@@ -7,7 +7,7 @@ use svg::node::element::{Group, Line, Polygon, Title};
 
 use super::label;
 use super::objects::{named, outline};
-use super::paint::{self, Paint, filled, fingers, px, ring};
+use super::paint::{self, Paint, Sign, filled, fingers, px, ring};
 use super::roles::Roles;
 use super::view::View;
 use singulate_planner::scene::{Footprint, Object, Pose, Scene, distance};
@@ -41,6 +41,19 @@ impl<'a> Move<'a> {
         let step = step.pick_place()?;
         let object = roles.object(&step.object)?;
         Some(Self { number, object, from: step.from.unwrap_or(object.footprint().pose), step })
+    }
+}
+
+/// The signs of a step in the legend.
+pub(super) fn signs(step: &Step) -> Vec<(Sign, &'static str)> {
+    match step {
+        Step::PickPlace(_) => vec![
+            (Sign::Dashed, "old place"),
+            (Sign::Disc(paint::MOVED), "new place"),
+            (Sign::Number(paint::MOVED), "order"),
+            (Sign::Finger(paint::GRASP), "fingers picking"),
+            (Sign::Finger(paint::RELEASE), "fingers releasing"),
+        ],
     }
 }
 

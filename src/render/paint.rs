@@ -37,6 +37,17 @@ pub(super) const RELEASE: Paint = Paint { fill: "#34a853", line: "#137a43" };
 /// The fingers at the grasp of the target.
 pub(super) const TARGET_GRASP: Paint = Paint { fill: "#f29900", line: "#8a5a00" };
 
+/// The shape of a sign in the legend.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Sign {
+    Disc(Paint),
+    DoubleRing(Paint),
+    Dashed,
+    Number(Paint),
+    Finger(Paint),
+    Hatch,
+}
+
 /// A number of pixels, with two decimals: finer than any screen.
 pub(super) fn px(value: f64) -> String {
     let text = format!("{value:.2}");

@@ -177,7 +177,7 @@ fn a_verification_lists_its_faults_with_steps_counted_from_one() {
     let text = |faults| verification(&VerificationBody::new(&Report { faults, ..Report::default() }));
     let expected = "not valid: 1 fault\n  step 1, plate-2: finger 1 is 3 mm inside 'vase' (grasp_blocked)\n";
     assert_eq!(text(vec![fault]), expected);
-    assert_eq!(text(Vec::new()), "valid: the plan holds\n");
+    assert_eq!(text(Vec::new()), "valid: all that it states holds\n");
 }
 
 #[test]
