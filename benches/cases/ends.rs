@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use singulate::computation::Engine;
 use singulate::wire::PlanRequest;
-use singulate::workers::{Outcome, Pool};
+use singulate::workers::{Pool, PoolOutcome};
 use tokio::runtime::Runtime;
 
 /// How long the computation has run by then: in its knowledge, in its search, in its places.
@@ -58,7 +58,7 @@ fn once(
         End::BestSoFar => {
             pending.recall().finish_soon();
             let outcome = runtime.block_on(pending.outcome());
-            assert_eq!(outcome, Outcome::Done(true), "the best so far is delivered");
+            assert_eq!(outcome, PoolOutcome::Done(true), "the best so far is delivered");
         }
     }
     while pool.idle() == 0 {

@@ -1,6 +1,6 @@
 //! The scenes that ask the most of the service.
 
-use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::experiments::{Crowding, Recipe, generate};
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{SweptFinger, complete, derivable};
 use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft};
@@ -16,7 +16,7 @@ pub(crate) fn pressed(objects: usize, seed: u64) -> SceneDraft {
         table: (side, side),
         radius: (0.04, 0.06),
         gripper,
-        arrangement: Arrangement::Pressed,
+        arrangement: Crowding::Pressed,
         pressed_gap: 0.015,
         ..Recipe::default()
     };
@@ -36,7 +36,7 @@ pub(crate) fn too_much_for_lobs() -> SceneDraft {
         table: (1.618, 1.618),
         radius: (0.04, 0.06),
         gripper,
-        arrangement: Arrangement::Pressed,
+        arrangement: Crowding::Pressed,
         pressed_gap: 0.024,
         ..Recipe::default()
     };

@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use singulate::experiments::{Arrangement, PAPERS_CASES, Recipe, generate};
+use singulate::experiments::{Crowding, PAPERS_CASES, Recipe, generate};
 use singulate_planner::budget::Budget;
 use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::{KnowledgeBase, SweptFinger, complete, derivable, relevant};
 use singulate_planner::scene::{GripperDraft, ObjectIndex, Scene, SceneLimits};
-use singulate_planner::search::{Outcome, Restriction, least};
+use singulate_planner::search::{Restriction, SearchOutcome, least};
 
 use super::cases::count;
 use super::{RUNS, RUNS_ALONE, fastest};
@@ -83,7 +83,7 @@ fn pressed_recipe(objects: usize, gap: f64) -> Recipe {
         table: (side, side),
         radius: (0.04, 0.06),
         gripper,
-        arrangement: Arrangement::Pressed,
+        arrangement: Crowding::Pressed,
         pressed_gap: gap,
         ..Recipe::default()
     }
@@ -96,8 +96,8 @@ fn hardest(recipe: &Recipe, seed: usize) -> Instance {
     let base = complete(&scene, &SweptFinger, &budget).expect("within the limits");
     let closure = derivable(&base, |_| false, &budget).expect("unlimited");
     let bound = |target: ObjectIndex| match least(&base, target, &Restriction::default(), &budget) {
-        Outcome::Least(set) => set.bound,
-        Outcome::Underivable | Outcome::Interrupted(_) => Cost::ZERO,
+        SearchOutcome::Least(set) => set.bound,
+        SearchOutcome::Underivable | SearchOutcome::Interrupted(_) => Cost::ZERO,
     };
     let derivable = scene.indices().filter(|object| closure.derives(*object));
     let target = derivable.max_by_key(|object| (bound(*object), core::cmp::Reverse(*object)));

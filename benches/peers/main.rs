@@ -18,7 +18,7 @@ use singulate_planner::budget::{Budget, Clock};
 use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::KnowledgeBase;
 use singulate_planner::scene::ObjectIndex;
-use singulate_planner::search::{Outcome, Restriction, least};
+use singulate_planner::search::{Restriction, SearchOutcome, least};
 
 use instances::Instance;
 
@@ -110,9 +110,9 @@ fn answer(class: &str, instance: &Instance, limit: Duration) -> Value {
         least(base, *target, &Restriction::default(), &Budget::new(&clock, limit))
     });
     let (solved, optimum) = match outcome {
-        Outcome::Least(set) => (true, Some(set.bound)),
-        Outcome::Underivable => (true, None),
-        Outcome::Interrupted(_) => (false, None),
+        SearchOutcome::Least(set) => (true, Some(set.bound)),
+        SearchOutcome::Underivable => (true, None),
+        SearchOutcome::Interrupted(_) => (false, None),
     };
     json!({
         "class": class, "name": name, "objects": base.len(), "target": target.get(), "options": options(base),

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use crate::peers::{Instance, PEERS, Peers};
 
 /// Drawing into a string fails only where a figure is no number.
-pub(crate) type Outcome<T> = Result<T, Box<dyn core::error::Error>>;
+pub(crate) type SearchOutcome<T> = Result<T, Box<dyn core::error::Error>>;
 
 const SIZE: (u32, u32) = (1000, 520);
 /// Named, not loaded: who looks at the picture has one.
@@ -23,7 +23,7 @@ const SLOWEST: f64 = 60.0;
 
 /// Every instance's time: a column a class, in it a strip a solver, in it the instances from left to right. A solver that
 /// did not finish has a ring at its limit.
-pub(crate) fn peers(peers: &Peers) -> Outcome<String> {
+pub(crate) fn peers(peers: &Peers) -> SearchOutcome<String> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -95,7 +95,7 @@ pub(crate) fn key(
     (columns, width): (usize, i32),
     name: &str,
     (colour, filled): (RGBColor, bool),
-) -> Outcome<()> {
+) -> SearchOutcome<()> {
     let (row, column) = (i32::try_from(at / columns)?, i32::try_from(at % columns)?);
     let (x, y) = (90 + column * width, 17 + row * 22);
     let style = if filled { colour.filled() } else { colour.stroke_width(2) };

@@ -3,7 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::plots::{FONT, Outcome, duration, float, key};
+use crate::plots::{FONT, SearchOutcome, duration, float, key};
 use crate::tables::{Column1, Table1};
 
 const SIZE: (u32, u32) = (800, 420);
@@ -42,7 +42,7 @@ fn measured(column: &Column1, method: &str) -> (Option<f64>, bool) {
 const CASE_1: usize = 3;
 
 /// Mean search time against N, and that of a whole plan by the swept finger.
-pub(crate) fn times(table: &Table1) -> Outcome<String> {
+pub(crate) fn times(table: &Table1) -> SearchOutcome<String> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -93,14 +93,14 @@ pub(crate) fn times(table: &Table1) -> Outcome<String> {
 }
 
 /// What the columns are, below their names.
-fn caption(root: &DrawingArea<SVGBackend<'_>, Shift>, middle: &(i32, i32)) -> Outcome<()> {
+fn caption(root: &DrawingArea<SVGBackend<'_>, Shift>, middle: &(i32, i32)) -> SearchOutcome<()> {
     let text = "objects N: Case I on one table (16 to 20), Case II at one density (25 to 50)";
     root.draw(&Text::new(text, (middle.0 - 240, middle.1 + 28), (FONT, 15)))?;
     Ok(())
 }
 
 /// Rates with their intervals: the paper's, ours by the sector model, ours by the swept finger.
-pub(crate) fn deadlocks(table: &Table1) -> Outcome<String> {
+pub(crate) fn deadlocks(table: &Table1) -> SearchOutcome<String> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::{Failure, terminal};
-use crate::experiments::{self, Arrangement, Recipe};
+use crate::experiments::{self, Crowding, Recipe};
 use crate::wire::SceneBody;
 use singulate_planner::scene::{GripperDraft, Scene, SceneLimits};
 
@@ -80,7 +80,7 @@ impl Generate {
             radius: self.radius,
             gripper,
             fixed_share: self.fixed_share,
-            arrangement: if self.pressed { Arrangement::Pressed } else { Arrangement::Loose },
+            arrangement: if self.pressed { Crowding::Pressed } else { Crowding::Loose },
             ..Recipe::default()
         }
     }

@@ -15,7 +15,7 @@ use super::{Computation, Served, Tools};
 use crate::metrics::{Queue, Refusal};
 use crate::traces::Context;
 use crate::wire::{Glance, Problem, RequestLimits};
-use crate::workers::{Draining, Outcome, Pending, Pool, Refused};
+use crate::workers::{Draining, Pending, Pool, PoolOutcome, Refused};
 use singulate_planner::budget::Budget;
 
 /// The time limit for reading a body that has no other limit.
@@ -72,9 +72,9 @@ impl Planning {
         }
         let pending = self.begin(owner, arrival, READING_LIMIT, move |_| read(&body, &limits))?;
         match pending.outcome().await {
-            Outcome::Done(read) => read,
-            Outcome::TimedOut => Err(unread()),
-            Outcome::Panicked => Err(internal()),
+            PoolOutcome::Done(read) => read,
+            PoolOutcome::TimedOut => Err(unread()),
+            PoolOutcome::Panicked => Err(internal()),
         }
     }
 
@@ -99,8 +99,8 @@ impl Planning {
         let compute = move |budget: &Budget<'_>| computation.compute(&tools, own.request()?, budget);
         let pending = self.begin(owner, arrival, time_limit, compute)?;
         match pending.outcome().await {
-            Outcome::Done(served) => served,
-            Outcome::TimedOut => {
+            PoolOutcome::Done(served) => served,
+            PoolOutcome::TimedOut => {
                 let told = spawn_blocking(move || computation.too_late(reading.known())).await;
                 let told = told.unwrap_or_else(|_| Err(internal()));
                 if told.is_err() {
@@ -108,7 +108,7 @@ impl Planning {
                 }
                 told
             }
-            Outcome::Panicked => Err(reading.panicked()),
+            PoolOutcome::Panicked => Err(reading.panicked()),
         }
     }
 

@@ -6,7 +6,7 @@ use std::collections::{BinaryHeap, HashMap};
 use nalgebra::{Point2, Vector2};
 use rand_chacha::ChaCha8Rng;
 
-use super::recipe::{Arrangement, GenerateError, Recipe, between, whole_micrometres};
+use super::recipe::{Crowding, GenerateError, Recipe, between, whole_micrometres};
 use singulate_planner::scene::distance;
 
 /// A disc on the floor, before it is an object of a scene.
@@ -33,8 +33,8 @@ pub(super) fn discs(recipe: &Recipe, random: &mut ChaCha8Rng) -> Result<Vec<Disc
     let mut fitted = 0;
     for _ in 0..ATTEMPTS {
         let floor = match recipe.arrangement {
-            Arrangement::Loose => loose(recipe, random),
-            Arrangement::Pressed => pressed(recipe, random),
+            Crowding::Loose => loose(recipe, random),
+            Crowding::Pressed => pressed(recipe, random),
         };
         if floor.discs.len() == recipe.objects {
             return Ok(floor.discs);

@@ -75,7 +75,7 @@ fn most_crowded(scene: &Scene) -> ObjectIndex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::recipe::Arrangement;
+    use crate::experiments::recipe::Crowding;
     use singulate_planner::scene::GripperDraft;
 
     fn scene(recipe: &Recipe, seed: u64) -> Scene {
@@ -104,13 +104,8 @@ mod tests {
     #[test]
     fn pressed_discs_stand_within_two_millimetres_of_another() {
         for radius in [(0.05, 0.05), (0.02, 0.08)] {
-            let recipe = Recipe {
-                objects: 60,
-                table: (2.0, 2.0),
-                radius,
-                arrangement: Arrangement::Pressed,
-                ..Recipe::default()
-            };
+            let recipe =
+                Recipe { objects: 60, table: (2.0, 2.0), radius, arrangement: Crowding::Pressed, ..Recipe::default() };
             let scene = scene(&recipe, 3);
             assert!(least_gaps(&scene).all(|gap| (0.0..0.002_01).contains(&gap)));
         }
@@ -126,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_table_too_full_says_how_many_fitted_and_so_many_do() {
-        for arrangement in [Arrangement::Loose, Arrangement::Pressed] {
+        for arrangement in [Crowding::Loose, Crowding::Pressed] {
             let recipe = Recipe { objects: 60, arrangement, ..Recipe::default() };
             let Err(GenerateError::TooFull { fitted, wanted: 60 }) = generate(&recipe, 0) else { panic!("60 fit") };
             assert!((15..60).contains(&fitted), "{fitted}");
@@ -136,7 +131,7 @@ mod tests {
 
     #[test]
     fn the_target_stands_in_the_closest_crowd_and_is_never_fixed() {
-        let recipe = Recipe { fixed_share: 1.0, arrangement: Arrangement::Pressed, ..Recipe::default() };
+        let recipe = Recipe { fixed_share: 1.0, arrangement: Crowding::Pressed, ..Recipe::default() };
         let recipe = Recipe { table: (2.0, 2.0), ..recipe };
         let scene = scene(&recipe, 1);
         assert_eq!(scene.objects().iter().filter(|object| !object.fixed()).count(), 1);
@@ -168,7 +163,7 @@ mod tests {
     #[test]
     fn ten_thousand_discs_are_generated_as_well() {
         let table = (1.2 * 25.0, 0.7 * 25.0);
-        for arrangement in [Arrangement::Loose, Arrangement::Pressed] {
+        for arrangement in [Crowding::Loose, Crowding::Pressed] {
             let recipe = Recipe { objects: 10_000, table, arrangement, ..Recipe::default() };
             assert_eq!(scene(&recipe, 0).objects().len(), 10_000);
         }

@@ -8,7 +8,7 @@ use singulate_planner::scene::{Finding, GripperDraft, LENGTH_RANGE, RectangleDra
 
 /// The arrangement of the objects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Arrangement {
+pub enum Crowding {
     /// Uniformly at random.
     #[default]
     Loose,
@@ -32,7 +32,7 @@ pub struct Recipe {
     /// The probability that an object other than the target is fixed.
     pub fixed_share: f64,
     /// The arrangement of the objects.
-    pub arrangement: Arrangement,
+    pub arrangement: Crowding,
     /// The largest gap between an object of a pressed cluster and its two supports, m.
     pub pressed_gap: f64,
 }
@@ -54,7 +54,7 @@ impl Default for Recipe {
             radius: (0.075, 0.075),
             gripper,
             fixed_share: 0.0,
-            arrangement: Arrangement::Loose,
+            arrangement: Crowding::Loose,
             pressed_gap: 2e-3,
         }
     }

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::generate::generate;
-use super::recipe::{Arrangement, GenerateError, Recipe, between, rectangle, whole_micrometres};
+use super::recipe::{Crowding, GenerateError, Recipe, between, rectangle, whole_micrometres};
 use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft};
 
 /// A random scene: 2 to 6 fingers, 2 to 80 objects (fewer if they don't fit), equal and mixed radii, loose and pressed,
@@ -44,7 +44,7 @@ fn recipe(random: &mut ChaCha8Rng) -> Recipe {
     let objects = whole(random, 2, 80);
     let least = between(random, (0.015, 0.08));
     let greatest = if chance(random, 0.5) { least } else { least * between(random, (1.1, 4.0)) };
-    let arrangement = if chance(random, 0.5) { Arrangement::Pressed } else { Arrangement::Loose };
+    let arrangement = if chance(random, 0.5) { Crowding::Pressed } else { Crowding::Loose };
     let gripper = gripper(random);
     let finger_width = gripper.finger_width.unwrap_or_default();
     Recipe {

@@ -12,7 +12,7 @@ use super::timestamp::Timestamp;
 use crate::computation::Tools;
 use crate::metrics::{Ended, milliseconds};
 use crate::wire::{AnswerBody, Glance, Problem, RequestLimits, read_job};
-use crate::workers::{Outcome, Pending, Pool, Recall, Refused};
+use crate::workers::{Pending, Pool, PoolOutcome, Recall, Refused};
 use singulate_planner::budget::Budget;
 use singulate_planner::search::{Incumbent, Progress};
 
@@ -67,12 +67,12 @@ impl Work {
     /// How the job ends.
     pub(super) async fn end(self) -> Concluded {
         match self.pending.outcome().await {
-            Outcome::Done(concluded) => concluded,
+            PoolOutcome::Done(concluded) => concluded,
             // Only a planner that ignores its time is abandoned; its best so far is not available.
-            Outcome::TimedOut => {
+            PoolOutcome::TimedOut => {
                 AnswerBody::unread(&self.glance).map_or_else(Concluded::internal, |answer| Concluded::with(&answer))
             }
-            Outcome::Panicked => {
+            PoolOutcome::Panicked => {
                 tracing::error!(scene = %String::from_utf8_lossy(&self.body), "planning panicked");
                 Concluded::internal()
             }

@@ -3,7 +3,7 @@
 use super::code::ErrorCode;
 use super::path::Path;
 use super::problem::WarningItem;
-use super::reader::Faults;
+use super::reader::RequestFaults;
 use singulate_planner::paper::{Cause, Warning};
 use singulate_planner::scene::{Finding, Flaw, Place, Scene};
 
@@ -27,7 +27,7 @@ pub(super) fn warning(scene: &Scene, warning: &Warning) -> WarningItem {
 }
 
 /// A finding as a fault.
-pub(super) fn note(scene: &Path<'_>, finding: &Finding, faults: &mut Faults) {
+pub(super) fn note(scene: &Path<'_>, finding: &Finding, faults: &mut RequestFaults) {
     at(scene, finding.place, &mut |path| faults.add(code(&finding.flaw), path, format_args!("{}", finding.flaw)));
 }
 

@@ -5,7 +5,7 @@ use super::limits::{MAX_BATCH, MAX_CALLBACK_URL_LENGTH, PRIORITY_RANGE, RequestL
 use super::path::Path;
 use super::plan_request::PlanRequest;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
 use super::request::request;
 use super::typed;
 
@@ -23,9 +23,9 @@ pub struct JobRequest {
 }
 
 /// A planning request's fields and two more.
-const JOB: Names =
-    Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings", "callback_url", "priority"]);
-const BATCH: Names = Names::of(&["scenes"]);
+const JOB: FieldNames =
+    FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "settings", "callback_url", "priority"]);
+const BATCH: FieldNames = FieldNames::of(&["scenes"]);
 
 /// Read a request for one job.
 ///
@@ -43,7 +43,7 @@ pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<JobRequest> {
 
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, Problem> {
     let (value, mut faults) = parse(body)?;
-    let read = job(Node::root(&value), body, limits, &mut faults);
+    let read = job(JsonNode::root(&value), body, limits, &mut faults);
     faults.judge(read)
 }
 
@@ -53,11 +53,11 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<JobRequest, 
 /// A problem with every fault of the body.
 pub fn read_batch(body: &[u8], limits: &RequestLimits) -> Result<Vec<JobRequest>, Problem> {
     let (value, mut faults) = parse(body)?;
-    let read = batch(Node::root(&value), limits, &mut faults);
+    let read = batch(JsonNode::root(&value), limits, &mut faults);
     faults.judge(read)
 }
 
-fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<JobRequest>> {
+fn batch(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<Vec<JobRequest>> {
     let fields = node.fields(&BATCH, faults)?;
     fields.required("scenes", faults, |node, faults| {
         let count = node.length();
@@ -75,17 +75,17 @@ fn batch(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<
 }
 
 /// A job of a body, or of a part of it.
-fn job(node: Node<'_>, body: &[u8], limits: &RequestLimits, faults: &mut Faults) -> Option<JobRequest> {
+fn job(node: JsonNode<'_>, body: &[u8], limits: &RequestLimits, faults: &mut RequestFaults) -> Option<JobRequest> {
     let plan = request(node, &JOB, limits, faults);
     // Faults of the object itself have been noted already.
-    let fields = node.fields(&JOB, &mut Faults::default())?;
+    let fields = node.fields(&JOB, &mut RequestFaults::default())?;
     let callback_url =
         fields.optional("callback_url", None, faults, |node, faults| callback_url(node, faults).map(Some));
     let priority = fields.optional("priority", 0, faults, |node, faults| node.integer(PRIORITY_RANGE, faults));
     Some(JobRequest { plan: plan?, callback_url: callback_url?, priority: priority?, body: body.to_owned() })
 }
 
-fn callback_url(node: Node<'_>, faults: &mut Faults) -> Option<String> {
+fn callback_url(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<String> {
     let text = node.text(faults)?;
     let length = text.chars().count();
     if length > MAX_CALLBACK_URL_LENGTH {

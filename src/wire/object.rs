@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::reader::{Faults, Names, Node};
+use super::reader::{FieldNames, JsonNode, RequestFaults};
 use singulate_planner::scene::{Object, ObjectDraft, Shape, ShapeDraft};
 
 // Later versions may have other shapes than discs.
-const OBJECT: Names = Names { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
+const OBJECT: FieldNames = FieldNames { known: &["id", "x", "y", "radius", "fixed"], reserved: &["shape"] };
 
 /// A disc on the table.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -58,7 +58,7 @@ impl From<ObjectFields> for ObjectDraft {
 }
 
 /// Read through a JSON value, with every fault.
-pub(super) fn read(node: Node<'_>, faults: &mut Faults) -> Option<ObjectDraft> {
+pub(super) fn read(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<ObjectDraft> {
     let fields = node.fields(&OBJECT, faults)?;
     Some(ObjectDraft {
         id: fields.required("id", faults, |node, faults| node.text(faults)),

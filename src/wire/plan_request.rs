@@ -6,7 +6,7 @@ use super::finding;
 use super::limits::RequestLimits;
 use super::path::Path;
 use super::problem::WarningItem;
-use super::reader::Faults;
+use super::reader::RequestFaults;
 use super::settings::StatedSettings;
 use singulate_planner::paper::Methods;
 use singulate_planner::plan::Settings;
@@ -47,12 +47,17 @@ pub(super) struct StatedRequest {
 impl StatedRequest {
     /// Validate the request at `path`; `None` if it has a fault.
     pub(super) fn sound(self, path: &Path<'_>, limits: &RequestLimits) -> Option<PlanRequest> {
-        let mut faults = Faults::default();
+        let mut faults = RequestFaults::default();
         let request = self.checked(path, limits, &mut faults);
         faults.judge(request).ok()
     }
 
-    pub(super) fn checked(self, path: &Path<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<PlanRequest> {
+    pub(super) fn checked(
+        self,
+        path: &Path<'_>,
+        limits: &RequestLimits,
+        faults: &mut RequestFaults,
+    ) -> Option<PlanRequest> {
         let Self { scene_id, draft, settings } = self;
         let overlap_tolerance = settings.overlap_tolerance(limits);
         match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {

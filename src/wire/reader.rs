@@ -11,11 +11,11 @@ use super::walk::{Repeated, walk};
 
 /// The faults found so far.
 #[derive(Default)]
-pub(super) struct Faults {
+pub(super) struct RequestFaults {
     items: Vec<ErrorItem>,
 }
 
-impl Faults {
+impl RequestFaults {
     pub(super) fn add(&mut self, code: ErrorCode, path: &Path<'_>, detail: fmt::Arguments<'_>) {
         if self.items.len() < MAX_ERRORS {
             self.items.push(ErrorItem::new(code, path.pointer(), detail.to_string()));
@@ -35,7 +35,7 @@ impl Faults {
 ///
 /// # Errors
 /// A problem that names what is no JSON.
-pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, Faults), Problem> {
+pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, RequestFaults), Problem> {
     let mut found = walk(body);
     let Some(value) = found.value.take() else { return Err(malformed(body, found)) };
     let mut places = Places::of(body);
@@ -43,17 +43,17 @@ pub(super) fn parse(body: &[u8]) -> Result<(Json<'_>, Faults), Problem> {
         let detail = format!("'{name}' is there a second time, at {}", places.at(at));
         ErrorItem::new(ErrorCode::RepeatedField, pointer, detail)
     });
-    Ok((value, Faults { items: items.collect() }))
+    Ok((value, RequestFaults { items: items.collect() }))
 }
 
 /// A value and its path.
 #[derive(Clone, Copy)]
-pub(super) struct Node<'a> {
+pub(super) struct JsonNode<'a> {
     value: &'a Json<'a>,
     path: &'a Path<'a>,
 }
 
-impl<'a> Node<'a> {
+impl<'a> JsonNode<'a> {
     pub(super) fn root(value: &'a Json<'a>) -> Self {
         Self { value, path: &Path::Root }
     }
@@ -67,7 +67,7 @@ impl<'a> Node<'a> {
         if let Json::Object(object) = self.value { object.text } else { &[] }
     }
 
-    fn wrong_type<T>(&self, expected: &str, faults: &mut Faults) -> Option<T> {
+    fn wrong_type<T>(&self, expected: &str, faults: &mut RequestFaults) -> Option<T> {
         let found = match self.value {
             Json::Null => "null",
             Json::Bool(_) => "a boolean",
@@ -81,7 +81,7 @@ impl<'a> Node<'a> {
     }
 
     /// An object with fields of these names and no others.
-    pub(super) fn fields(&self, names: &Names, faults: &mut Faults) -> Option<Fields<'a>> {
+    pub(super) fn fields(&self, names: &FieldNames, faults: &mut RequestFaults) -> Option<Fields<'a>> {
         let Json::Object(object) = self.value else { return self.wrong_type("an object", faults) };
         let names_there = object.fields.iter().map(|(name, _)| name.as_ref());
         for name in names_there.filter(|name| !names.known.contains(name)).take(MAX_ERRORS) {
@@ -96,11 +96,11 @@ impl<'a> Node<'a> {
     }
 
     /// An object with any fields.
-    pub(super) fn any_object(&self, faults: &mut Faults) -> Option<()> {
+    pub(super) fn any_object(&self, faults: &mut RequestFaults) -> Option<()> {
         if matches!(self.value, Json::Object(_)) { Some(()) } else { self.wrong_type("an object", faults) }
     }
 
-    pub(super) fn number(&self, faults: &mut Faults) -> Option<f64> {
+    pub(super) fn number(&self, faults: &mut RequestFaults) -> Option<f64> {
         let Json::Number(number) = self.value else { return self.wrong_type("a number", faults) };
         let value = number.parse().ok().filter(|value: &f64| value.is_finite());
         if value.is_none() {
@@ -112,7 +112,7 @@ impl<'a> Node<'a> {
     }
 
     /// A number from `min` to `max`.
-    pub(super) fn ranged(&self, (min, max): (f64, f64), faults: &mut Faults) -> Option<f64> {
+    pub(super) fn ranged(&self, (min, max): (f64, f64), faults: &mut RequestFaults) -> Option<f64> {
         let value = self.number(faults)?;
         if !(min..=max).contains(&value) {
             faults.add(ErrorCode::OutOfRange, self.path, format_args!("{value} is not between {min} and {max}"));
@@ -122,7 +122,7 @@ impl<'a> Node<'a> {
     }
 
     /// An integer from `min` to `max`; 3.0 is one.
-    pub(super) fn integer(&self, (min, max): (i64, i64), faults: &mut Faults) -> Option<i64> {
+    pub(super) fn integer(&self, (min, max): (i64, i64), faults: &mut RequestFaults) -> Option<i64> {
         let value = self.number(faults)?;
         if value.fract() != 0.0 {
             faults.add(ErrorCode::NotWhole, self.path, format_args!("{value} is not a whole number"));
@@ -138,21 +138,21 @@ impl<'a> Node<'a> {
     }
 
     /// A non-negative integer.
-    pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut Faults) -> Option<u64> {
+    pub(super) fn whole(&self, (min, max): (u64, u64), faults: &mut RequestFaults) -> Option<u64> {
         let bound = |bound| i64::try_from(bound).unwrap_or(i64::MAX);
         self.integer((bound(min), bound(max)), faults).and_then(|value| u64::try_from(value).ok())
     }
 
-    pub(super) fn boolean(&self, faults: &mut Faults) -> Option<bool> {
+    pub(super) fn boolean(&self, faults: &mut RequestFaults) -> Option<bool> {
         if let Json::Bool(value) = self.value { Some(*value) } else { self.wrong_type("a boolean", faults) }
     }
 
-    pub(super) fn text(&self, faults: &mut Faults) -> Option<String> {
+    pub(super) fn text(&self, faults: &mut RequestFaults) -> Option<String> {
         if let Json::String(text) = self.value { Some(text.to_string()) } else { self.wrong_type("a string", faults) }
     }
 
     /// One of these words.
-    pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+    pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)], faults: &mut RequestFaults) -> Option<T> {
         let Json::String(text) = self.value else { return self.wrong_type("a string", faults) };
         let choice = choices.iter().find(|(word, _)| word == text).map(|(_, value)| *value);
         if choice.is_none() {
@@ -170,8 +170,8 @@ impl<'a> Node<'a> {
     /// A list. An unreadable item is replaced by the default value; its fault has been noted.
     pub(super) fn list<T: Default>(
         &self,
-        faults: &mut Faults,
-        read: impl Fn(Node<'_>, &mut Faults) -> Option<T>,
+        faults: &mut RequestFaults,
+        read: impl Fn(JsonNode<'_>, &mut RequestFaults) -> Option<T>,
     ) -> Option<Vec<T>> {
         let Json::Array(values) = self.value else { return self.wrong_type("an array", faults) };
         let mut items = Vec::new();
@@ -181,19 +181,19 @@ impl<'a> Node<'a> {
                 return None;
             }
             let path = self.path.item(position);
-            items.push(read(Node { value, path: &path }, faults).unwrap_or_default());
+            items.push(read(JsonNode { value, path: &path }, faults).unwrap_or_default());
         }
         Some(items)
     }
 }
 
 /// The names of an object's fields.
-pub(super) struct Names {
+pub(super) struct FieldNames {
     pub(super) known: &'static [&'static str],
     pub(super) reserved: &'static [&'static str],
 }
 
-impl Names {
+impl FieldNames {
     pub(super) const fn of(known: &'static [&'static str]) -> Self {
         Self { known, reserved: &[] }
     }
@@ -211,19 +211,19 @@ impl Fields<'_> {
     pub(super) fn required<T>(
         &self,
         name: &'static str,
-        faults: &mut Faults,
-        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+        faults: &mut RequestFaults,
+        read: impl FnOnce(JsonNode<'_>, &mut RequestFaults) -> Option<T>,
     ) -> Option<T> {
         let path = self.path.field(name);
         let Some(value) = self.object.get(name) else {
             self.missing(name, faults);
             return None;
         };
-        read(Node { value, path: &path }, faults)
+        read(JsonNode { value, path: &path }, faults)
     }
 
     /// Note that a field is missing.
-    pub(super) fn missing(&self, name: &'static str, faults: &mut Faults) {
+    pub(super) fn missing(&self, name: &'static str, faults: &mut RequestFaults) {
         faults.add(ErrorCode::Missing, &self.path.field(name), format_args!("the field '{name}' is required"));
     }
 
@@ -232,12 +232,12 @@ impl Fields<'_> {
         &self,
         name: &'static str,
         default: T,
-        faults: &mut Faults,
-        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+        faults: &mut RequestFaults,
+        read: impl FnOnce(JsonNode<'_>, &mut RequestFaults) -> Option<T>,
     ) -> Option<T> {
         match self.object.get(name) {
             None | Some(Json::Null) => Some(default),
-            Some(value) => read(Node { value, path: &self.path.field(name) }, faults),
+            Some(value) => read(JsonNode { value, path: &self.path.field(name) }, faults),
         }
     }
 
@@ -245,8 +245,8 @@ impl Fields<'_> {
     pub(super) fn stated<T>(
         &self,
         name: &'static str,
-        faults: &mut Faults,
-        read: impl FnOnce(Node<'_>, &mut Faults) -> Option<T>,
+        faults: &mut RequestFaults,
+        read: impl FnOnce(JsonNode<'_>, &mut RequestFaults) -> Option<T>,
     ) -> Option<T> {
         self.optional(name, None, faults, |node, faults| read(node, faults).map(Some)).flatten()
     }
@@ -257,7 +257,7 @@ impl Fields<'_> {
     }
 
     /// A required number.
-    pub(super) fn number(&self, name: &'static str, faults: &mut Faults) -> Option<f64> {
+    pub(super) fn number(&self, name: &'static str, faults: &mut RequestFaults) -> Option<f64> {
         self.required(name, faults, |node, faults| node.number(faults))
     }
 }

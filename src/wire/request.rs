@@ -6,7 +6,7 @@ use super::object;
 use super::path::Path;
 use super::plan_request::{PlanRequest, StatedRequest};
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
 use super::settings::StatedSettings;
 use super::typed;
 use singulate_planner::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
@@ -27,20 +27,21 @@ pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<PlanRequest> 
 /// Read any body through a JSON value.
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest, Problem> {
     let (value, mut faults) = parse(body)?;
-    let request = request(Node::root(&value), &REQUEST, limits, &mut faults);
+    let request = request(JsonNode::root(&value), &REQUEST, limits, &mut faults);
     faults.judge(request)
 }
 
-pub(super) const REQUEST: Names = Names::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
-const TABLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
-const RECTANGLE: Names = Names::of(&["x_min", "y_min", "x_max", "y_max"]);
-const GRIPPER: Names = Names::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
+pub(super) const REQUEST: FieldNames =
+    FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
+const TABLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
+const RECTANGLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max"]);
+const GRIPPER: FieldNames = FieldNames::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
 /// A planning request; `names` includes its own fields.
 pub(super) fn request(
-    node: Node<'_>,
-    names: &Names,
+    node: JsonNode<'_>,
+    names: &FieldNames,
     limits: &RequestLimits,
-    faults: &mut Faults,
+    faults: &mut RequestFaults,
 ) -> Option<PlanRequest> {
     let fields = node.fields(names, faults)?;
     let scene_id = fields.optional("scene_id", None, faults, scene_id);
@@ -63,7 +64,7 @@ pub(super) fn request(
     stated.checked(node.path(), limits, faults).filter(|_| named)
 }
 
-fn scene_id(node: Node<'_>, faults: &mut Faults) -> Option<Option<String>> {
+fn scene_id(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Option<String>> {
     let text = node.text(faults)?;
     let length = text.chars().count();
     if length > MAX_SCENE_ID_LENGTH {
@@ -74,7 +75,7 @@ fn scene_id(node: Node<'_>, faults: &mut Faults) -> Option<Option<String>> {
     Some(Some(text))
 }
 
-fn table(node: Node<'_>, faults: &mut Faults) -> Option<TableDraft> {
+fn table(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<TableDraft> {
     let fields = node.fields(&TABLE, faults)?;
     let top = RectangleDraft {
         x_min: fields.number("x_min", faults),
@@ -86,7 +87,7 @@ fn table(node: Node<'_>, faults: &mut Faults) -> Option<TableDraft> {
     Some(TableDraft { top, keep_out: keep_out.unwrap_or_default() })
 }
 
-fn rectangle(node: Node<'_>, faults: &mut Faults) -> Option<RectangleDraft> {
+fn rectangle(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<RectangleDraft> {
     let fields = node.fields(&RECTANGLE, faults)?;
     Some(RectangleDraft {
         x_min: fields.number("x_min", faults),
@@ -96,7 +97,7 @@ fn rectangle(node: Node<'_>, faults: &mut Faults) -> Option<RectangleDraft> {
     })
 }
 
-fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
+fn gripper(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<GripperDraft> {
     let fields = node.fields(&GRIPPER, faults)?;
     Some(GripperDraft {
         fingers: fields.number("fingers", faults),
@@ -107,7 +108,7 @@ fn gripper(node: Node<'_>, faults: &mut Faults) -> Option<GripperDraft> {
     })
 }
 
-fn objects(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Vec<ObjectDraft>> {
+fn objects(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<Vec<ObjectDraft>> {
     let (count, max) = (node.length(), limits.scene.max_objects);
     if count > max {
         // Reading them is not worth the work.

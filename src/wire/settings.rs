@@ -5,13 +5,13 @@ use core::time::Duration;
 use super::code::ErrorCode;
 use super::limits::RequestLimits;
 use super::path::Path;
-use super::reader::{Faults, Fields, Names, Node};
+use super::reader::{FieldNames, Fields, JsonNode, RequestFaults};
 use singulate_planner::paper::{GraspModelName, Methods, PlacementMethod, Raster, SearchMethod};
 use singulate_planner::plan::{Objective, Settings};
 use singulate_planner::scene::Table;
 
-const SETTINGS: Names =
-    Names::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms", "overlap_tolerance"]);
+const SETTINGS: FieldNames =
+    FieldNames::of(&["grasp_model", "search", "placement", "objective", "time_limit_ms", "overlap_tolerance"]);
 
 /// The settings of a request, before its table is known.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +37,7 @@ impl StatedSettings {
         Self { overlap_tolerance: Some(limits.scene.overlap_tolerance), planning }
     }
 
-    pub(super) fn read(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Self {
+    pub(super) fn read(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Self {
         let Some(fields) = node.fields(&SETTINGS, faults) else {
             return Self { overlap_tolerance: None, planning: None };
         };
@@ -59,7 +59,7 @@ impl StatedSettings {
         table: &Table,
         limits: &RequestLimits,
         request: &Path<'_>,
-        faults: &mut Faults,
+        faults: &mut RequestFaults,
     ) -> Option<(Settings, Methods, Duration)> {
         let StatedPlanning { settings, methods, raster, time_limit } = self.overlap_tolerance.and(self.planning)?;
         if !raster {
@@ -85,7 +85,7 @@ impl StatedPlanning {
         Self { settings: Settings::default(), methods: Methods::default(), raster: false, time_limit }
     }
 
-    fn read(fields: Fields<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<Self> {
+    fn read(fields: Fields<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<Self> {
         let absent = Self::absent(limits);
         let grasp_models = [("swept_finger", GraspModelName::SweptFinger), ("sector", GraspModelName::Sector)];
         let grasp_model = fields.optional("grasp_model", absent.methods.grasp_model, faults, |node, faults| {

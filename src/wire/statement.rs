@@ -10,7 +10,7 @@ use super::limits::RequestLimits;
 use super::path::Path;
 use super::plan_request::PlanRequest;
 use super::problem::Problem;
-use super::reader::{Faults, Names, Node, parse};
+use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
 use super::request::{REQUEST, request};
 use super::scene::SceneBody;
 use super::step::{self, StatedGraspBody, StatedRelocation};
@@ -114,8 +114,8 @@ impl AsRef<PlanRequest> for VerifyRequest {
     }
 }
 
-const VERIFY: Names = Names::of(&["scene", "plan"]);
-const PLAN: Names = Names::of(&[
+const VERIFY: FieldNames = FieldNames::of(&["scene", "plan"]);
+const PLAN: FieldNames = FieldNames::of(&[
     "verdict",
     "scene_id",
     "target",
@@ -130,7 +130,7 @@ const PLAN: Names = Names::of(&[
     "warnings",
     "statistics",
 ]);
-const DEADLOCK: Names = Names::of(&["blocked", "core"]);
+const DEADLOCK: FieldNames = FieldNames::of(&["blocked", "core"]);
 
 /// The greatest count that may be stated; far above any that can hold.
 const MAX_COUNT: u64 = 1_000_000_000;
@@ -152,7 +152,7 @@ pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<VerifyRequest
 
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
     let (value, mut faults) = parse(body)?;
-    let request = verify(Node::root(&value), limits, &mut faults);
+    let request = verify(JsonNode::root(&value), limits, &mut faults);
     faults.judge(request)
 }
 
@@ -163,11 +163,11 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyReques
 pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Statement, Problem> {
     let (value, mut faults) = parse(body)?;
     let target = scene.object(scene.target()).id();
-    let statement = plan(Node::root(&value), Some(target), &mut faults);
+    let statement = plan(JsonNode::root(&value), Some(target), &mut faults);
     faults.judge(statement)
 }
 
-fn verify(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option<VerifyRequest> {
+fn verify(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<VerifyRequest> {
     let fields = node.fields(&VERIFY, faults)?;
     let request = fields.required("scene", faults, |node, faults| request(node, &REQUEST, limits, faults));
     let target = request.as_ref().map(|PlanRequest { scene, .. }| scene.object(scene.target()).id());
@@ -175,7 +175,7 @@ fn verify(node: Node<'_>, limits: &RequestLimits, faults: &mut Faults) -> Option
     Some(VerifyRequest { statement: statement?, request: request? })
 }
 
-fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Option<Statement> {
+fn plan(node: JsonNode<'_>, scene_target: Option<&str>, faults: &mut RequestFaults) -> Option<Statement> {
     let fields = node.fields(&PLAN, faults)?;
     let verdict = fields.stated("verdict", faults, |node, faults| {
         node.word(&Verdict::ALL.map(|verdict| (verdict.as_str(), verdict)), faults)
@@ -192,7 +192,7 @@ fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Opti
     }
     fields.stated("warnings", faults, |node, faults| node.list(faults, |node, faults| node.any_object(faults)));
     fields.stated("statistics", faults, |node, faults| node.any_object(faults));
-    let count = |node: Node<'_>, faults: &mut Faults| node.whole((0, MAX_COUNT), faults).map(Cost::new);
+    let count = |node: JsonNode<'_>, faults: &mut RequestFaults| node.whole((0, MAX_COUNT), faults).map(Cost::new);
     Some(Statement {
         verdict,
         relocations,
@@ -206,7 +206,7 @@ fn plan(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Opti
     })
 }
 
-fn target(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Option<()> {
+fn target(node: JsonNode<'_>, scene_target: Option<&str>, faults: &mut RequestFaults) -> Option<()> {
     let stated = node.text(faults)?;
     if let Some(wanted) = scene_target.filter(|wanted| *wanted != stated) {
         let detail = format_args!("the plan is for '{stated}', the scene's target is '{wanted}'");
@@ -215,13 +215,13 @@ fn target(node: Node<'_>, scene_target: Option<&str>, faults: &mut Faults) -> Op
     Some(())
 }
 
-fn deadlock(node: Node<'_>, faults: &mut Faults) -> Option<Deadlock> {
+fn deadlock(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Deadlock> {
     let fields = node.fields(&DEADLOCK, faults)?;
     let blocked = fields.required("blocked", faults, ids);
     let core = fields.required("core", faults, ids);
     Some(Deadlock { blocked: blocked?, core: core? })
 }
 
-fn ids(node: Node<'_>, faults: &mut Faults) -> Option<Vec<String>> {
+fn ids(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Vec<String>> {
     node.list(faults, |node, faults| node.text(faults))
 }

@@ -5,13 +5,13 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::code::ErrorCode;
-use super::reader::{Faults, Names, Node};
+use super::reader::{FieldNames, JsonNode, RequestFaults};
 use singulate_planner::scene::{COORDINATE_RANGE, Pose};
 use singulate_planner::statement::{PickPlace, StatedGrasp, Step};
 
-const RELOCATION: Names = Names::of(&["action", "object", "from", "to", "grasp", "release", "gap"]);
-const POINT: Names = Names::of(&["x", "y"]);
-const GRASP: Names = Names::of(&["yaw", "slack"]);
+const RELOCATION: FieldNames = FieldNames::of(&["action", "object", "from", "to", "grasp", "release", "gap"]);
+const POINT: FieldNames = FieldNames::of(&["x", "y"]);
+const GRASP: FieldNames = FieldNames::of(&["yaw", "slack"]);
 
 /// One step of a plan. A client must refuse an action that it doesn't know.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
@@ -141,7 +141,7 @@ impl From<StatedGrasp> for GraspBody {
     }
 }
 
-pub(super) fn read(node: Node<'_>, faults: &mut Faults) -> Option<Step> {
+pub(super) fn read(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Step> {
     let fields = node.fields(&RELOCATION, faults)?;
     // Where no action is named, it is the oldest one.
     fields.stated("action", faults, |node, faults| node.word(&[("pick_place", ())], faults));
@@ -154,14 +154,14 @@ pub(super) fn read(node: Node<'_>, faults: &mut Faults) -> Option<Step> {
     Some(Step::PickPlace(PickPlace { object: object?, from, to: to?, grasp: grasp?, release: release?, gap }))
 }
 
-fn point(node: Node<'_>, faults: &mut Faults) -> Option<Pose> {
+fn point(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Pose> {
     let fields = node.fields(&POINT, faults)?;
     let x = fields.required("x", faults, coordinate);
     let y = fields.required("y", faults, coordinate);
     Some(Point2::new(x?, y?).into())
 }
 
-fn coordinate(node: Node<'_>, faults: &mut Faults) -> Option<f64> {
+fn coordinate(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<f64> {
     let value = node.number(faults)?;
     let (min, max) = COORDINATE_RANGE;
     if !(min..=max).contains(&value) {
@@ -170,7 +170,7 @@ fn coordinate(node: Node<'_>, faults: &mut Faults) -> Option<f64> {
     Some(value)
 }
 
-pub(super) fn read_grasp(node: Node<'_>, faults: &mut Faults) -> Option<StatedGrasp> {
+pub(super) fn read_grasp(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<StatedGrasp> {
     let fields = node.fields(&GRASP, faults)?;
     let yaw = fields.number("yaw", faults);
     let slack = fields.stated("slack", faults, |node, faults| node.number(faults));

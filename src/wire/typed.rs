@@ -12,7 +12,7 @@ use serde_json::value::RawValue;
 use super::limits::{MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
 use super::object::ObjectFields;
 use super::plan_request::StatedRequest;
-use super::reader::{Node, parse};
+use super::reader::{JsonNode, parse};
 use super::settings::StatedSettings;
 use super::walk::MAX_DEPTH;
 use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft, TableDraft};
@@ -179,7 +179,7 @@ impl RequestFields<'_> {
 /// Settings are few and have many rules, so they are read by the walk here too.
 fn settings(text: &RawValue, limits: &RequestLimits) -> Option<StatedSettings> {
     let (value, mut faults) = parse(text.get().as_bytes()).ok()?;
-    let stated = StatedSettings::read(Node::root(&value), limits, &mut faults);
+    let stated = StatedSettings::read(JsonNode::root(&value), limits, &mut faults);
     faults.judge(Some(stated)).ok()
 }
 

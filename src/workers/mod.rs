@@ -10,7 +10,7 @@ mod queue;
 #[cfg(test)]
 mod tests;
 
-pub use pending::{Outcome, Pending, Recall};
+pub use pending::{Pending, PoolOutcome, Recall};
 pub use pool::{Pool, Refused};
 
 /// The shutdown signal: once it is given, running work ends and nothing new begins. Clones share it, and each can wait

@@ -23,7 +23,7 @@ const FAR: Duration = Duration::from_hours(24 * 365);
 
 /// The outcome of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome<T> {
+pub enum PoolOutcome<T> {
     /// It came to an end.
     Done(T),
     /// Its deadline passed first, or it was recalled before it began.
@@ -36,7 +36,7 @@ pub enum Outcome<T> {
 #[derive(Debug)]
 pub struct Pending<T> {
     ticket: Arc<Ticket>,
-    reply: oneshot::Receiver<Outcome<T>>,
+    reply: oneshot::Receiver<PoolOutcome<T>>,
 }
 
 /// Recalls a computation while another task waits for its outcome. Clones recall the same one.
@@ -102,14 +102,14 @@ impl Ticket {
     }
 
     /// Runs the computation on the calling thread, one of the pool's.
-    pub(super) fn run<T>(&self, computation: impl FnOnce(&Budget<'_>) -> T) -> Outcome<T> {
+    pub(super) fn run<T>(&self, computation: impl FnOnce(&Budget<'_>) -> T) -> PoolOutcome<T> {
         if self.abandoned() {
-            return Outcome::TimedOut;
+            return PoolOutcome::TimedOut;
         }
         self.started.store(true, Ordering::Release);
         let budget = Budget::new(self, self.time_limit);
         // The computation owns all its data, so a panic leaves nothing half-done.
-        catch_unwind(AssertUnwindSafe(|| computation(&budget))).map_or(Outcome::Panicked, Outcome::Done)
+        catch_unwind(AssertUnwindSafe(|| computation(&budget))).map_or(PoolOutcome::Panicked, PoolOutcome::Done)
     }
 }
 
@@ -128,7 +128,7 @@ impl Clock for Ticket {
 }
 
 impl<T> Pending<T> {
-    pub(super) fn new(ticket: Arc<Ticket>, reply: oneshot::Receiver<Outcome<T>>) -> Self {
+    pub(super) fn new(ticket: Arc<Ticket>, reply: oneshot::Receiver<PoolOutcome<T>>) -> Self {
         Self { ticket, reply }
     }
 
@@ -139,7 +139,7 @@ impl<T> Pending<T> {
 
     /// Wait for the outcome, but not past the deadline: a queued computation times out at once, a running one has a
     /// grace period to deliver. A recalled one is waited for as long, since its result is still wanted.
-    pub async fn outcome(mut self) -> Outcome<T> {
+    pub async fn outcome(mut self) -> PoolOutcome<T> {
         let deadline = self.ticket.deadline();
         tokio::select! {
             biased;
@@ -148,22 +148,22 @@ impl<T> Pending<T> {
             () = sleep_until(deadline.into()) => {}
         }
         if !self.ticket.started() {
-            return Outcome::TimedOut;
+            return PoolOutcome::TimedOut;
         }
         tokio::select! {
             biased;
             reply = &mut self.reply => self.replied(reply.ok()),
-            () = sleep_until((deadline + DELIVERY_GRACE).into()) => Outcome::TimedOut,
+            () = sleep_until((deadline + DELIVERY_GRACE).into()) => PoolOutcome::TimedOut,
         }
     }
 
-    fn replied(&self, reply: Option<Outcome<T>>) -> Outcome<T> {
+    fn replied(&self, reply: Option<PoolOutcome<T>>) -> PoolOutcome<T> {
         match reply {
             Some(outcome) => outcome,
             // Its thread has died.
-            None if self.ticket.started() => Outcome::Panicked,
+            None if self.ticket.started() => PoolOutcome::Panicked,
             // Its time was over or it was recalled, so it was dropped from the queue.
-            None => Outcome::TimedOut,
+            None => PoolOutcome::TimedOut,
         }
     }
 }

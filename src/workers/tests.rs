@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use super::{Outcome, Pool, Refused};
+use super::{Pool, PoolOutcome, Refused};
 use singulate_planner::budget::Budget;
 
 const ANYBODY: &str = "anybody";
@@ -31,16 +31,16 @@ fn wait_until(mut condition: impl FnMut() -> bool) {
 async fn a_computation_delivers() {
     let pool = Pool::new(2, 0).unwrap();
     let pending = pool.submit(ANYBODY, Instant::now(), LONG, |_| 7).unwrap();
-    assert_eq!(pending.outcome().await, Outcome::Done(7));
+    assert_eq!(pending.outcome().await, PoolOutcome::Done(7));
 }
 
 #[tokio::test]
 async fn a_panic_is_told_and_the_thread_lives_on() {
     let pool = Pool::new(1, 1).unwrap();
     let pending = pool.submit(ANYBODY, Instant::now(), LONG, |_| -> u8 { panic!("on purpose") }).unwrap();
-    assert_eq!(pending.outcome().await, Outcome::Panicked);
+    assert_eq!(pending.outcome().await, PoolOutcome::Panicked);
     let pending = pool.submit(ANYBODY, Instant::now(), LONG, |_| 7).unwrap();
-    assert_eq!(pending.outcome().await, Outcome::Done(7));
+    assert_eq!(pending.outcome().await, PoolOutcome::Done(7));
     assert!(pool.ready());
 }
 
@@ -54,7 +54,7 @@ async fn a_full_pool_refuses_until_a_caller_hangs_up() {
     drop(waiting);
     let waiting = pool.submit(ANYBODY, Instant::now(), LONG, |_| 7).unwrap();
     drop(running);
-    assert_eq!(waiting.outcome().await, Outcome::Done(7));
+    assert_eq!(waiting.outcome().await, PoolOutcome::Done(7));
 }
 
 #[tokio::test]
@@ -66,7 +66,7 @@ async fn a_computation_that_waits_past_its_deadline_never_starts() {
     let mark = Arc::clone(&began);
     let computation = move |_: &Budget<'_>| mark.store(true, Ordering::Relaxed);
     let waiting = pool.submit(ANYBODY, Instant::now(), Duration::from_millis(5), computation).unwrap();
-    assert_eq!(waiting.outcome().await, Outcome::TimedOut);
+    assert_eq!(waiting.outcome().await, PoolOutcome::TimedOut);
     drop(running);
     wait_until(|| pool.idle() == 1);
     assert!(!began.load(Ordering::Relaxed));
@@ -78,7 +78,7 @@ async fn a_computation_that_ignores_its_budget_is_not_waited_for() {
     let (release, held) = std::sync::mpsc::channel::<()>();
     let computation = move |_: &Budget<'_>| held.recv().is_ok();
     let pending = pool.submit(ANYBODY, Instant::now(), Duration::from_millis(5), computation).unwrap();
-    assert_eq!(pending.outcome().await, Outcome::TimedOut);
+    assert_eq!(pending.outcome().await, PoolOutcome::TimedOut);
     drop(release);
 }
 
@@ -91,7 +91,7 @@ async fn a_closed_pool_finishes_what_it_has() {
     pool.join();
     assert!(!pool.ready());
     assert_eq!(pool.submit(ANYBODY, Instant::now(), LONG, |_| 7).unwrap_err(), Refused::Closed);
-    assert_eq!((first.outcome().await, second.outcome().await), (Outcome::Done(()), Outcome::Done(7)));
+    assert_eq!((first.outcome().await, second.outcome().await), (PoolOutcome::Done(()), PoolOutcome::Done(7)));
 }
 
 /// A computation that runs until the sender is dropped.
@@ -121,7 +121,7 @@ async fn owners_take_turns_at_the_thread() {
         .collect();
     drop(release);
     for pending in pending {
-        assert_eq!(pending.outcome().await, Outcome::Done(true));
+        assert_eq!(pending.outcome().await, PoolOutcome::Done(true));
     }
     assert_eq!(served.try_iter().collect::<String>(), "abcaba");
 }
@@ -144,7 +144,7 @@ async fn a_computation_that_can_not_start_in_time_is_refused_at_once() {
     let Err(Refused::TooLate { retry_after }) = ask(&pool, minute) else { panic!("taken") };
     assert!(retry_after > 2 * minute, "{retry_after:?}");
     drop(release);
-    assert_eq!(patient.outcome().await, Outcome::Done(7));
+    assert_eq!(patient.outcome().await, PoolOutcome::Done(7));
     wait_until(|| pool.idle() == 1);
     // Whatever the forecast, an idle thread begins at once.
     assert!(ask(&pool, Duration::from_secs(30)).is_ok());
@@ -183,7 +183,7 @@ async fn a_recalled_computation_delivers_its_best_so_far() {
         recall.clone().finish_soon();
         recall.finish_soon();
     }
-    assert_eq!(outcomes.await.unwrap(), (Outcome::TimedOut, Outcome::Done(7)));
+    assert_eq!(outcomes.await.unwrap(), (PoolOutcome::TimedOut, PoolOutcome::Done(7)));
     wait_until(|| pool.idle() == 1);
     assert!(!began.load(Ordering::Relaxed), "it began though it was recalled");
 }
@@ -197,9 +197,9 @@ async fn a_pool_calls_everything_to_its_end() {
     let waiting = submit();
     pool.finish_soon();
     for pending in running {
-        assert_eq!(pending.outcome().await, Outcome::Done(()));
+        assert_eq!(pending.outcome().await, PoolOutcome::Done(()));
     }
-    assert_eq!(waiting.outcome().await, Outcome::TimedOut);
+    assert_eq!(waiting.outcome().await, PoolOutcome::TimedOut);
     wait_until(|| pool.busy() == 0);
 }
 
@@ -210,7 +210,7 @@ async fn a_late_computation_that_loses_its_place_has_timed_out() {
     let late = pool.submit(ANYBODY, Instant::now(), Duration::from_millis(1), |_| 7).unwrap();
     std::thread::sleep(Duration::from_millis(5));
     let next = pool.submit(ANYBODY, Instant::now(), LONG, |_| 7).unwrap();
-    assert_eq!(late.outcome().await, Outcome::TimedOut);
+    assert_eq!(late.outcome().await, PoolOutcome::TimedOut);
     drop(release);
-    assert_eq!(next.outcome().await, Outcome::Done(7));
+    assert_eq!(next.outcome().await, PoolOutcome::Done(7));
 }

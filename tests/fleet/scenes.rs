@@ -1,7 +1,7 @@
 //! What is handed in: the same scenes in every run.
 
 use serde_json::{Value, json};
-use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::experiments::{Crowding, Recipe, generate};
 use singulate::wire::SceneBody;
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{SweptFinger, complete, derivable};
@@ -68,7 +68,7 @@ fn pressed(objects: usize, side: f64, pressed_gap: f64) -> SceneDraft {
         table: (side, side),
         radius: (0.04, 0.06),
         gripper,
-        arrangement: Arrangement::Pressed,
+        arrangement: Crowding::Pressed,
         pressed_gap,
         ..Recipe::default()
     };

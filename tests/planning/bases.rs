@@ -7,7 +7,7 @@ use singulate_planner::budget::Budget;
 use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::{KnowledgeBase, derivable};
 use singulate_planner::scene::ObjectIndex;
-use singulate_planner::search::{Memory, Outcome, Restriction, SILENT, least_within};
+use singulate_planner::search::{Memory, Restriction, SILENT, SearchOutcome, least_within};
 
 #[derive(Deserialize)]
 struct Case {
@@ -37,8 +37,8 @@ fn solve_all(memory: &Memory) {
             .collect();
         let target = index[case.target.as_str()];
         match least_within(memory, &base, target, &Restriction::default(), &Budget::unlimited(), SILENT) {
-            Outcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
-            Outcome::Least(found) => {
+            SearchOutcome::Underivable => assert_eq!(case.expected.verdict, "deadlock", "{}", case.name),
+            SearchOutcome::Least(found) => {
                 assert_eq!(Some(found.bound.get()), case.expected.relocations, "{}", case.name);
                 assert_eq!(Cost::of_each(found.derivation.order.len()), found.bound, "{}", case.name);
                 for landmark in &found.landmarks {
@@ -47,7 +47,7 @@ fn solve_all(memory: &Memory) {
                     assert!(!closure.derives(target), "{}: {landmark:?} is no landmark", case.name);
                 }
             }
-            Outcome::Interrupted(_) => unreachable!("the budget never ends"),
+            SearchOutcome::Interrupted(_) => unreachable!("the budget never ends"),
         }
     }
 }

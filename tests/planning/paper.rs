@@ -14,7 +14,7 @@ use singulate_planner::paper::{
 };
 use singulate_planner::plan::Settings;
 use singulate_planner::scene::{ObjectIndex, Scene, SceneLimits};
-use singulate_planner::search::{Derivation, Outcome, Restriction, SILENT, least};
+use singulate_planner::search::{Derivation, Restriction, SILENT, SearchOutcome, least};
 use singulate_planner::statement::{Statement, Verdict};
 
 const MANY: usize = 1_000_000;
@@ -34,9 +34,9 @@ fn base(scene: &Scene, model: &dyn GraspModel) -> KnowledgeBase {
 
 fn optimum(base: &KnowledgeBase, target: ObjectIndex) -> Option<Cost> {
     match least(base, target, &Restriction::default(), &Budget::unlimited()) {
-        Outcome::Least(known) => Some(known.bound),
-        Outcome::Underivable => None,
-        Outcome::Interrupted(_) => unreachable!("the budget never ends"),
+        SearchOutcome::Least(known) => Some(known.bound),
+        SearchOutcome::Underivable => None,
+        SearchOutcome::Interrupted(_) => unreachable!("the budget never ends"),
     }
 }
 

@@ -1,12 +1,12 @@
 //! Bases that come from scenes: the search and the locks against exhaustion.
 
-use singulate::experiments::{Arrangement, Recipe, generate};
+use singulate::experiments::{Crowding, Recipe, generate};
 use singulate_planner::budget::Budget;
 use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::{KnowledgeBase, SweptFinger, complete, derivable, relevant};
 use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft};
-use singulate_planner::search::{Outcome, Restriction, SILENT, least};
+use singulate_planner::search::{Restriction, SILENT, SearchOutcome, least};
 use singulate_planner::statement::{Statement, Verdict};
 
 /// Up to 11 discs, with gaps about as wide as a finger, so that options share members, hold each other and the target.
@@ -26,7 +26,7 @@ fn crowd(seed: u64) -> Scene {
         table: (2.0, 2.0),
         gripper,
         fixed_share: if pick(17, 3) == 0 { 0.2 } else { 0.0 },
-        arrangement: Arrangement::Pressed,
+        arrangement: Crowding::Pressed,
         pressed_gap: 0.012 + 0.02 * share(2, 4),
         ..Recipe::default()
     };
@@ -69,7 +69,7 @@ fn the_least_set_of_a_small_crowd_is_what_exhaustion_finds() {
             let expected = expected.filter(|&set| follows(&options, at, set)).map(u32::count_ones).min();
             let near = relevant(&scene, target, &SweptFinger, &Budget::unlimited()).unwrap();
             match least(&near, target, &Restriction::default(), &Budget::unlimited()) {
-                Outcome::Least(found) => {
+                SearchOutcome::Least(found) => {
                     assert_eq!(u32::try_from(found.bound.get()).ok(), expected, "seed {seed} target {at}");
                     assert_eq!(Cost::of_each(found.derivation.order.len()), found.bound);
                     derived += usize::from(found.bound > Cost::ZERO);
@@ -80,7 +80,7 @@ fn the_least_set_of_a_small_crowd_is_what_exhaustion_finds() {
                     }
                 }
                 outcome => {
-                    assert_eq!((&outcome, expected), (&Outcome::Underivable, None), "seed {seed} target {at}");
+                    assert_eq!((&outcome, expected), (&SearchOutcome::Underivable, None), "seed {seed} target {at}");
                     locked += 1;
                 }
             }

@@ -10,7 +10,7 @@ use crate::scene::{ObjectIndex, Scene};
 use super::chain::{Chain, Freed};
 use super::fault::{FaultCode, Faults};
 use super::hitting::{MOST_KEPT, least_hits};
-use super::names::{Names, relocatable};
+use super::names::{ObjectNames, relocatable};
 
 /// The most lifted objects that a fault names.
 const MAX_NAMED: usize = 5;
@@ -36,7 +36,7 @@ struct Landmark {
 pub(super) fn prove(
     scene: &Scene,
     stated: &[Vec<String>],
-    names: &Names<'_>,
+    names: &ObjectNames<'_>,
     chain: &mut Chain<'_>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
@@ -59,7 +59,7 @@ pub(super) fn prove(
 fn readable(
     scene: &Scene,
     stated: &[Vec<String>],
-    names: &Names<'_>,
+    names: &ObjectNames<'_>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Result<Vec<Landmark>, Interrupted> {
@@ -80,7 +80,7 @@ fn readable(
     Ok(landmarks)
 }
 
-fn member(scene: &Scene, at: usize, id: &str, names: &Names<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
+fn member(scene: &Scene, at: usize, id: &str, names: &ObjectNames<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
     let object = names.known(id, None, faults)?;
     if relocatable(scene, object) {
         return Some(object);

@@ -10,7 +10,7 @@ use super::rings::{Ring, Rings};
 use super::ways::way;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
+enum Visit {
     /// Must not be lifted.
     Held,
     /// In the queue.
@@ -25,7 +25,7 @@ enum State {
 pub(super) struct Chain<'s> {
     rings: Rings<'s>,
     /// Per object its state, and the number of the question that set it: a new question needs no reset.
-    states: Vec<(usize, State)>,
+    states: Vec<(usize, Visit)>,
     question: usize,
     queue: Vec<ObjectIndex>,
     /// The objects lifted in the current question, in order.
@@ -43,7 +43,7 @@ pub(super) struct Freed {
 
 impl<'s> Chain<'s> {
     pub(super) fn new(rings: Rings<'s>) -> Self {
-        let states = vec![(0, State::Held); rings.count()];
+        let states = vec![(0, Visit::Held); rings.count()];
         Self { rings, states, question: 0, queue: Vec::new(), lifted: Vec::new() }
     }
 
@@ -64,14 +64,14 @@ impl<'s> Chain<'s> {
         self.queue.clear();
         self.lifted.clear();
         for object in held {
-            self.set(*object, State::Held);
+            self.set(*object, Visit::Held);
         }
         let target = scene.target();
         self.enqueue(target);
         while let Some(object) = self.queue.pop() {
             let ring = self.rings.ring(object, ticker)?;
             ticker.step(1 + ring.len() / 64)?;
-            let stands = |other| self.state(other) != Some(State::Lifted);
+            let stands = |other| self.state(other) != Some(Visit::Lifted);
             if object == target {
                 if let Some(yaw) = self.rings.free_yaw(&ring, stands) {
                     return Ok(Some(Freed { yaw, lifted: self.lifted.clone() }));
@@ -89,7 +89,7 @@ impl<'s> Chain<'s> {
 
     /// The object waits, so its blockers are visited.
     fn wait(&mut self, scene: &Scene, object: ObjectIndex, ring: &Ring) {
-        self.set(object, State::Waiting);
+        self.set(object, Visit::Waiting);
         for other in ring.blockers() {
             if self.state(other).is_none() && !scene.object(other).fixed() {
                 self.enqueue(other);
@@ -99,27 +99,27 @@ impl<'s> Chain<'s> {
 
     /// Lifts the object, and visits the waiting objects that it blocked once more.
     fn lift(&mut self, object: ObjectIndex) {
-        self.set(object, State::Lifted);
+        self.set(object, Visit::Lifted);
         self.lifted.push(object);
         for at in 0..self.rings.watchers(object).len() {
             let watcher = self.rings.watchers(object)[at];
-            if self.state(watcher) == Some(State::Waiting) {
+            if self.state(watcher) == Some(Visit::Waiting) {
                 self.enqueue(watcher);
             }
         }
     }
 
     fn enqueue(&mut self, object: ObjectIndex) {
-        self.set(object, State::Queued);
+        self.set(object, Visit::Queued);
         self.queue.push(object);
     }
 
-    fn set(&mut self, object: ObjectIndex, state: State) {
+    fn set(&mut self, object: ObjectIndex, state: Visit) {
         self.states[object.get()] = (self.question, state);
     }
 
     /// `None` if the current question has not touched the object.
-    fn state(&self, object: ObjectIndex) -> Option<State> {
+    fn state(&self, object: ObjectIndex) -> Option<Visit> {
         let (question, state) = self.states[object.get()];
         (question == self.question).then_some(state)
     }

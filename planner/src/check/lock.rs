@@ -5,14 +5,14 @@ use crate::scene::{ObjectIndex, Scene};
 use crate::statement::{Deadlock, Statement};
 
 use super::fault::{FaultCode, Faults};
-use super::names::Names;
+use super::names::ObjectNames;
 use super::rings::Rings;
 use super::ways::{grasp, way};
 
 /// Both locks of a stated deadlock.
 pub(super) fn check(
     scene: &Scene,
-    names: &Names<'_>,
+    names: &ObjectNames<'_>,
     statement: &Statement,
     rings: &mut Rings<'_>,
     faults: &mut Faults,
@@ -28,7 +28,7 @@ pub(super) fn check(
 
 fn both(
     scene: &Scene,
-    names: &Names<'_>,
+    names: &ObjectNames<'_>,
     stated: &Deadlock,
     rings: &mut Rings<'_>,
     faults: &mut Faults,
@@ -57,7 +57,7 @@ impl Lock {
         name: &'static str,
         ids: &[String],
         scene: &Scene,
-        names: &Names<'_>,
+        names: &ObjectNames<'_>,
         faults: &mut Faults,
         ticker: &mut Ticker<'_>,
     ) -> Result<Self, Interrupted> {

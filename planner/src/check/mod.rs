@@ -37,7 +37,7 @@ use crate::statement::Statement;
 
 use chain::Chain;
 use fault::Faults;
-use names::Names;
+use names::ObjectNames;
 use near::{Places, Tree};
 use rings::{Leaning, Rings};
 
@@ -56,7 +56,7 @@ const PATIENCE: usize = 50_000;
 /// The checker of one scene. Its preparations are shared by all answers, whatever their targets.
 pub struct Checker<'s> {
     scene: &'s Scene,
-    names: Names<'s>,
+    names: ObjectNames<'s>,
     start: Rc<Tree>,
     /// Chains on rings that lean to blocked.
     blocked: Chain<'s>,
@@ -69,7 +69,7 @@ impl<'s> Checker<'s> {
     pub fn new(scene: &'s Scene) -> Self {
         let start = Tree::of_start(scene);
         let blocked = Chain::new(Rings::new(scene, &start, Leaning::Blocked));
-        Self { scene, names: Names::new(scene), start, blocked, free: None }
+        Self { scene, names: ObjectNames::new(scene), start, blocked, free: None }
     }
 
     /// Check a stated answer. The time is near-linear in the steps and in what the proofs name. Locks and needed objects take

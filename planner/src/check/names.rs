@@ -7,9 +7,9 @@ use crate::scene::{ObjectIndex, Scene};
 use super::fault::{FaultCode, Faults};
 
 /// The objects of a scene by id: an answer may hold a million ids, and a scan for each would be quadratic.
-pub(super) struct Names<'s>(HashMap<&'s str, ObjectIndex>);
+pub(super) struct ObjectNames<'s>(HashMap<&'s str, ObjectIndex>);
 
-impl<'s> Names<'s> {
+impl<'s> ObjectNames<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
         Self(scene.indices().map(|object| (scene.object(object).id(), object)).collect())
     }

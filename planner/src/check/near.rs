@@ -13,7 +13,7 @@ use crate::scene::{COORDINATE_RANGE, Footprint, ObjectIndex, Scene};
 use crate::statement::Step;
 
 use super::measure::{away, extent, gap};
-use super::names::{Names, relocatable};
+use super::names::{ObjectNames, relocatable};
 
 /// The number of a place. At the start, the n-th object stands on place n.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,7 +74,7 @@ pub(super) fn resolvable(point: Point2<f64>) -> bool {
 
 impl Places {
     /// `start` holds the scene's objects.
-    pub(super) fn new(scene: &Scene, start: &Rc<Tree>, steps: &[Step], names: &Names<'_>) -> Self {
+    pub(super) fn new(scene: &Scene, start: &Rc<Tree>, steps: &[Step], names: &ObjectNames<'_>) -> Self {
         let (mut footprints, mut owners) = (Vec::new(), Vec::new());
         let of_steps = steps.iter().map(|step| {
             let (object, to) = (names.find(step.object())?, step.rests_at()?);

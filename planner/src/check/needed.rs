@@ -6,13 +6,13 @@ use crate::budget::{Interrupted, Ticker};
 use crate::scene::{ObjectIndex, Scene};
 
 use super::fault::{FaultCode, Faults};
-use super::names::{Names, relocatable};
+use super::names::{ObjectNames, relocatable};
 use super::rings::{Ring, Rings};
 use super::ways::way;
 
 struct Moving<'a, 's> {
     scene: &'a Scene,
-    names: &'a Names<'s>,
+    names: &'a ObjectNames<'s>,
     rings: &'a mut Rings<'s>,
     moved: Vec<bool>,
 }
@@ -20,7 +20,7 @@ struct Moving<'a, 's> {
 /// Lifts the needed objects, then tries the target. The rings lean to free.
 pub(super) fn check<'s>(
     scene: &Scene,
-    names: &Names<'s>,
+    names: &ObjectNames<'s>,
     ids: &[String],
     rings: &mut Rings<'s>,
     faults: &mut Faults,

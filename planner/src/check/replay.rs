@@ -12,7 +12,7 @@ use super::TOLERANCE;
 use super::fault::{FaultCode, Faults, figure};
 use super::finger::Finger;
 use super::measure::apart;
-use super::names::Names;
+use super::names::ObjectNames;
 use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
 
@@ -22,7 +22,7 @@ const MAX_YAW: f64 = 1e6;
 struct Replay<'a> {
     scene: &'a Scene,
     places: &'a Places,
-    names: &'a Names<'a>,
+    names: &'a ObjectNames<'a>,
     standing: Standing,
     faults: &'a mut Faults,
     ticker: Ticker<'a>,
@@ -33,7 +33,7 @@ struct Replay<'a> {
 pub(super) fn replay<'a>(
     scene: &'a Scene,
     places: &'a Places,
-    names: &'a Names<'a>,
+    names: &'a ObjectNames<'a>,
     statement: &Statement,
     faults: &'a mut Faults,
     ticker: Ticker<'a>,

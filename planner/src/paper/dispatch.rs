@@ -7,7 +7,7 @@ use super::methods::{Methods, SearchMethod};
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, NoBase, complete, relevant};
 use crate::scene::{ObjectIndex, Scene};
-use crate::search::{Derivation, LeastSet, Memory, Outcome, Progress, Restriction, least_within};
+use crate::search::{Derivation, LeastSet, Memory, Progress, Restriction, SearchOutcome, least_within};
 
 /// Memory limits of the paper's searches.
 #[derive(Debug, Clone, Copy)]
@@ -64,10 +64,10 @@ pub fn seek(
     match method {
         SearchMethod::Landmarks => {
             match least_within(&Memory::default(), base, target, &Restriction::default(), budget, progress) {
-                Outcome::Least(known) => Sought::Least(known),
-                Outcome::Underivable => Sought::Nothing,
-                Outcome::Interrupted(Some(known)) => Sought::Best(known),
-                Outcome::Interrupted(None) => Sought::TooLate,
+                SearchOutcome::Least(known) => Sought::Least(known),
+                SearchOutcome::Underivable => Sought::Nothing,
+                SearchOutcome::Interrupted(Some(known)) => Sought::Best(known),
+                SearchOutcome::Interrupted(None) => Sought::TooLate,
             }
         }
         SearchMethod::Lobs => concluded(lobs(base, target, limits.lobs_members, budget)),

@@ -18,7 +18,7 @@ use crate::search::Derivation;
 
 /// A node of the search tree. OPEN returns the cheapest first, among equals the oldest.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Node {
+struct SearchNode {
     /// g, the length of the sequence. (The algorithm counts the target too, which changes no order.)
     g: usize,
     /// The number of the node, in order of creation.
@@ -40,7 +40,7 @@ pub fn lobs(
     budget: &Budget<'_>,
 ) -> Result<Conclusion, Interrupted> {
     // 1-4
-    let root = Node { g: 0, number: 0, o_c: vec![target], o_s_r: vec![target] };
+    let root = SearchNode { g: 0, number: 0, o_c: vec![target], o_s_r: vec![target] };
     let mut open = BinaryHeap::from([Reverse(root)]);
     // The root holds the target twice.
     let (mut number, mut members) = (0, 2);
@@ -66,7 +66,7 @@ pub fn lobs(
             if !o_s_r.is_empty() {
                 number += 1;
                 members += clause.len() + o_s_r.len();
-                open.push(Reverse(Node { g: o_s_r.len(), number, o_c: clause, o_s_r }));
+                open.push(Reverse(SearchNode { g: o_s_r.len(), number, o_c: clause, o_s_r }));
             }
             if members > max_members {
                 return Ok(Conclusion::TooLarge);

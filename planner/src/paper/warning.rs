@@ -106,15 +106,21 @@ impl fmt::Display for Warning {
                 )
             }
             Self::SearchTooLarge => write!(f, "the search reached its limit of memory"),
-            Self::FewerSuffice { enough } => write!(f, "by the swept finger {}, places apart", sufficient(*enough)),
+            Self::FewerSuffice { enough } => {
+                write!(f, "by the swept finger {}, if there are places for them", sufficient(*enough))
+            }
             Self::UnprovenDeadlock { enough: Some(enough), .. } => {
-                write!(f, "no deadlock for the swept finger: {}, places apart", sufficient(*enough))
+                write!(f, "no deadlock for the swept finger: {}, if there are places for them", sufficient(*enough))
             }
             Self::UnprovenDeadlock { enough: None, .. } => {
-                write!(f, "whether this is a deadlock for the swept finger too could not be told in time")
+                write!(f, "time ran out before it was known whether this is a deadlock for the swept finger too")
             }
             Self::DeadlockTooDense { .. } => {
-                write!(f, "whether this is a deadlock for the swept finger too was not tried: {}", NoBase::TooLarge)
+                write!(
+                    f,
+                    "it was not examined whether this is a deadlock for the swept finger too: {}",
+                    NoBase::TooLarge
+                )
             }
             Self::Faulty(Fault { step: Some(step), detail, .. }) => write!(f, "step {}: {detail}", step + 1),
             Self::Faulty(fault) => write!(f, "{}", fault.detail),

@@ -10,7 +10,7 @@ use crate::check::Checker;
 use crate::knowledge::{NoBase, SweptFinger, relevant};
 use crate::placement::Arrangement;
 use crate::scene::{ObjectIndex, Scene};
-use crate::search::{Derivation, Memory, Outcome, Progress, Restriction, least_within};
+use crate::search::{Derivation, Memory, Progress, Restriction, SearchOutcome, least_within};
 use crate::statement::Statement;
 
 /// The share of the time for knowledge and search.
@@ -60,18 +60,19 @@ fn stated(
     let rest = budget.share(PLACEMENT_SHARE);
     let question = Question { scene, base: &base, model: &SweptFinger, objective: settings.objective };
     match outcome {
-        Outcome::Least(set) => {
+        SearchOutcome::Least(set) => {
             let place = || arrange_least(&question, set.derivation.clone(), &rest);
             let found = timed(&mut times.placement, budget, place);
             Ok(placed(scene, found, &set.derivation, Statement::no_space).bounded(scene, &set))
         }
-        Outcome::Interrupted(Some(set)) => {
+        SearchOutcome::Interrupted(Some(set)) => {
             let place = || arrange_one(&question, &set.derivation, &rest);
             let found = timed(&mut times.placement, budget, place);
             Ok(placed(scene, found, &set.derivation, Statement::cut_off).bounded(scene, &set))
         }
-        Outcome::Interrupted(None) => Ok(Statement::timed_out()),
-        Outcome::Underivable => match timed(&mut times.knowledge, budget, || prove_deadlock(scene, &base, &rest)) {
+        SearchOutcome::Interrupted(None) => Ok(Statement::timed_out()),
+        SearchOutcome::Underivable => match timed(&mut times.knowledge, budget, || prove_deadlock(scene, &base, &rest))
+        {
             Ok(locks) => Ok(Statement::deadlock(scene, &locks)),
             Err(NoBase::Interrupted) => Ok(Statement::timed_out()),
             Err(NoBase::TooLarge) => Err(PlanError::TooDense),

@@ -7,7 +7,7 @@ use crate::check::Checker;
 use crate::cost::Cost;
 use crate::knowledge::{Derivable, KnowledgeBase, NoBase, SweptFinger, complete, derivable};
 use crate::scene::{ObjectIndex, Scene};
-use crate::search::{Outcome, Restriction, least};
+use crate::search::{Restriction, SearchOutcome, least};
 use crate::statement::{Statement, Verdict};
 
 /// The verdict for one object as the target.
@@ -89,7 +89,7 @@ impl Surveyor<'_> {
     /// A derivation with its bound, stated as an answer without places.
     fn derive(&mut self, scene: &Scene, budget: &Budget<'_>) -> Result<SurveyEntry, PlanError> {
         let object = scene.target();
-        let (Outcome::Least(set) | Outcome::Interrupted(Some(set))) =
+        let (SearchOutcome::Least(set) | SearchOutcome::Interrupted(Some(set))) =
             least(self.base, object, &Restriction::default(), budget)
         else {
             return Ok(timed_out(object));

@@ -7,7 +7,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::least::least;
-use super::outcome::{Derivation, Outcome, Restriction};
+use super::outcome::{Derivation, Restriction, SearchOutcome};
 use crate::budget::{Budget, Interrupted};
 use crate::cost::Cost;
 use crate::knowledge::{KnowledgeBase, derivable};
@@ -65,12 +65,12 @@ impl<'a> Alternatives<'a> {
             let mut narrower = restriction.clone();
             narrower.held.push(object);
             match least(self.base, self.target, &narrower, budget) {
-                Outcome::Least(set) => {
+                SearchOutcome::Least(set) => {
                     self.open.push(Reverse((set.derivation.cost(), self.found.len())));
                     self.found.push((narrower, set.derivation));
                 }
-                Outcome::Underivable => {}
-                Outcome::Interrupted(_) => return Err(Interrupted),
+                SearchOutcome::Underivable => {}
+                SearchOutcome::Interrupted(_) => return Err(Interrupted),
             }
             restriction.required.push(object);
             rest.pop();

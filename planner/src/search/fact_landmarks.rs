@@ -2,7 +2,7 @@
 //! Helmert 2010).
 
 use super::bits::Bits;
-use super::problem::{Node, Problem};
+use super::problem::{HornRules, Node};
 use crate::budget::{Interrupted, Ticker};
 
 /// The most bits of all sets together, 8 MB. Larger problems get no fact landmarks.
@@ -22,7 +22,11 @@ impl FactLandmarks {
     ///
     /// # Errors
     /// [`Interrupted`] when the budget ends.
-    pub(super) fn of(problem: &Problem, order: &[Node], ticker: &mut Ticker<'_>) -> Result<Option<Self>, Interrupted> {
+    pub(super) fn of(
+        problem: &HornRules,
+        order: &[Node],
+        ticker: &mut Ticker<'_>,
+    ) -> Result<Option<Self>, Interrupted> {
         let nodes = problem.movable() + 1;
         if nodes.saturating_mul(nodes + problem.rules()) > MAX_BITS {
             return Ok(None);
@@ -59,7 +63,7 @@ impl FactLandmarks {
 
     /// True if the rule is dominated: moving its body takes moving the body of another rule of the same head, or the
     /// head itself. Of two rules that dominate each other the first stays.
-    pub(super) fn is_dominated(&self, problem: &Problem, rule: u32) -> bool {
+    pub(super) fn is_dominated(&self, problem: &HornRules, rule: u32) -> bool {
         let head = problem.head(rule);
         let implies = |rule: u32, other: u32| {
             problem.body(other).iter().all(|&member| self.bodies.has(rule as usize, member as usize))

@@ -1,11 +1,11 @@
 //! Incremental forward chaining (Dowling & Gallier 1984) under a growing set of allowed nodes, with undo.
 
-use super::problem::{Node, Problem};
+use super::problem::{HornRules, Node};
 
 /// What follows when only the allowed nodes may be moved. A node is moved once it is both allowed and graspable.
 #[derive(Debug, Clone)]
 pub(super) struct ForwardChaining<'p> {
-    problem: &'p Problem,
+    problem: &'p HornRules,
     /// Per rule the number of members of its body that are not moved.
     standing: Vec<u32>,
     allowed: Vec<bool>,
@@ -33,7 +33,7 @@ pub(super) struct Mark(usize);
 
 impl<'p> ForwardChaining<'p> {
     /// No node is allowed.
-    pub(super) fn new(problem: &'p Problem) -> Self {
+    pub(super) fn new(problem: &'p HornRules) -> Self {
         let nodes = problem.movable() + 1;
         let mut chain = Self {
             problem,

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::forward_chaining::ForwardChaining;
-use super::problem::{Node, Problem};
+use super::problem::{HornRules, Node};
 use crate::budget::{Interrupted, Ticker};
 
 /// A derivation by h_add (Bonet & Geffner 2001): a node costs 1 plus the costs of all members of its cheapest body. The
@@ -13,7 +13,7 @@ use crate::budget::{Interrupted, Ticker};
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
-pub(super) fn h_add(problem: &Problem, ticker: &mut Ticker<'_>) -> Result<Vec<Node>, Interrupted> {
+pub(super) fn h_add(problem: &HornRules, ticker: &mut Ticker<'_>) -> Result<Vec<Node>, Interrupted> {
     let nodes = problem.movable() + 1;
     let mut support: Vec<Option<u32>> = vec![None; nodes];
     let mut settled = vec![false; nodes];

@@ -1,7 +1,7 @@
 //! New landmarks: from a chaining that fails, and from the rules alone.
 
 use super::forward_chaining::ForwardChaining;
-use super::problem::{Node, Problem};
+use super::problem::{HornRules, Node};
 use crate::budget::{Interrupted, Ticker};
 
 /// Grows the allowed set of a chain that does not reach the goal to a maximal one that still does not. Returns the
@@ -14,7 +14,7 @@ use crate::budget::{Interrupted, Ticker};
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub(super) fn extract(
-    problem: &Problem,
+    problem: &HornRules,
     chain: &mut ForwardChaining<'_>,
     goal: Node,
     ticker: &mut Ticker<'_>,
@@ -47,7 +47,7 @@ pub(super) fn extract(
 
 /// The landmark of an object whose bodies each have exactly one member that is not `forced`: these members. `None` if
 /// some body has none or several, or if all bodies have the same one.
-pub(super) fn one_of_each(problem: &Problem, object: Node, forced: impl Fn(Node) -> bool) -> Option<Vec<Node>> {
+pub(super) fn one_of_each(problem: &HornRules, object: Node, forced: impl Fn(Node) -> bool) -> Option<Vec<Node>> {
     let mut landmark = Vec::new();
     for &rule in problem.rules_of(object) {
         let mut open = problem.body(rule).iter().filter(|&&node| !forced(node));

@@ -3,9 +3,9 @@
 use super::clauses::{Facts, MaxSat};
 use super::forward_chaining::ForwardChaining;
 use super::hitting::Allowance;
-use super::outcome::{Derivation, Incumbent, LeastSet, Memory, Outcome, Progress, Restriction, SILENT};
+use super::outcome::{Derivation, Incumbent, LeastSet, Memory, Progress, Restriction, SILENT, SearchOutcome};
 use super::preprocessing::{Preprocessed, preprocess};
-use super::problem::{Node, Problem};
+use super::problem::{HornRules, Node};
 use super::{hitting, incumbent, landmark, proof};
 use crate::budget::{Budget, Interrupted, Stop, Ticker};
 use crate::cost::Cost;
@@ -19,7 +19,12 @@ const LANDMARKS_A_NODE: usize = 4;
 const FIRST_TURN: (usize, u64) = (500, 50_000);
 
 /// The least set of objects from which the target follows.
-pub fn least(base: &KnowledgeBase, target: ObjectIndex, restriction: &Restriction, budget: &Budget<'_>) -> Outcome {
+pub fn least(
+    base: &KnowledgeBase,
+    target: ObjectIndex,
+    restriction: &Restriction,
+    budget: &Budget<'_>,
+) -> SearchOutcome {
     least_within(&Memory::default(), base, target, restriction, budget, SILENT)
 }
 
@@ -31,20 +36,20 @@ pub fn least_within(
     restriction: &Restriction,
     budget: &Budget<'_>,
     progress: Progress<'_>,
-) -> Outcome {
+) -> SearchOutcome {
     let mut ticker = Ticker::new(budget);
     let Preprocessed { problem, fact_landmarks } = match preprocess(base, target, restriction, &mut ticker) {
         Ok(Some(reduced)) => reduced,
-        Ok(None) => return Outcome::Underivable,
-        Err(Interrupted) => return Outcome::Interrupted(None),
+        Ok(None) => return SearchOutcome::Underivable,
+        Err(Interrupted) => return SearchOutcome::Interrupted(None),
     };
     let (mut forced, mut underived_required) = (fact_landmarks, Vec::new());
     for object in &restriction.required {
         // No least set holds an object on which the target does not depend.
         if ticker.step(1 + (problem.movable() + forced.len()) / 256).is_err() {
-            return Outcome::Interrupted(None);
+            return SearchOutcome::Interrupted(None);
         }
-        let Some(node) = problem.node(*object) else { return Outcome::Underivable };
+        let Some(node) = problem.node(*object) else { return SearchOutcome::Underivable };
         if !forced.contains(&node) {
             forced.push(node);
             underived_required.push(node);
@@ -52,16 +57,16 @@ pub fn least_within(
     }
     let Ok(mut search) = HittingSetSearch::new(&problem, forced, underived_required, memory, progress, &mut ticker)
     else {
-        return Outcome::Interrupted(None);
+        return SearchOutcome::Interrupted(None);
     };
     match search.run(&mut ticker) {
-        Ok(()) => Outcome::Least(search.known(&mut ticker)),
-        Err(Interrupted) => Outcome::Interrupted(Some(search.known(&mut ticker))),
+        Ok(()) => SearchOutcome::Least(search.known(&mut ticker)),
+        Err(Interrupted) => SearchOutcome::Interrupted(Some(search.known(&mut ticker))),
     }
 }
 
 struct HittingSetSearch<'p> {
-    problem: &'p Problem,
+    problem: &'p HornRules,
     memory: &'p Memory,
     progress: Progress<'p>,
     /// Between two calls only the `forced` nodes are allowed.
@@ -82,7 +87,7 @@ struct HittingSetSearch<'p> {
 
 impl<'p> HittingSetSearch<'p> {
     fn new(
-        problem: &'p Problem,
+        problem: &'p HornRules,
         forced: Vec<Node>,
         underived_required: Vec<Node>,
         memory: &'p Memory,

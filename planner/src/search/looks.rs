@@ -5,9 +5,9 @@ use crate::budget::{Budget, Ticker};
 use crate::scene::ObjectIndex;
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::landmark::extract;
-use crate::search::problem::Problem;
+use crate::search::problem::HornRules;
 use crate::search::tests::base;
-use crate::search::{Outcome, Restriction, least};
+use crate::search::{Restriction, SearchOutcome, least};
 
 #[test]
 fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
@@ -21,7 +21,7 @@ fn a_landmark_costs_as_much_as_the_rules_that_are_looked_at() {
         options.push(vec![]);
         let objects = (1..options.len()).chain([0]).map(ObjectIndex::new).collect();
         let unlimited = Budget::unlimited();
-        let problem = Problem::over(&base(&options), objects, |_| true, &mut Ticker::new(&unlimited)).unwrap();
+        let problem = HornRules::over(&base(&options), objects, |_| true, &mut Ticker::new(&unlimited)).unwrap();
         Looks::of(|budget| {
             let mut chain = ForwardChaining::new(&problem);
             let landmark = extract(&problem, &mut chain, problem.target(), &mut Ticker::new(budget));
@@ -42,7 +42,7 @@ fn required_objects_count_towards_the_set() {
         let restriction = Restriction { required, ..Restriction::default() };
         Looks::of(|budget| {
             let outcome = least(&base, ObjectIndex::new(0), &restriction, budget);
-            assert!(matches!(outcome, Outcome::Least(_)), "{outcome:?}");
+            assert!(matches!(outcome, SearchOutcome::Least(_)), "{outcome:?}");
         })
     };
     let (nothing, everything) = (solved(0), solved(2000));

@@ -26,4 +26,4 @@ mod tests;
 
 pub use alternatives::Alternatives;
 pub use least::{least, least_within};
-pub use outcome::{Derivation, Incumbent, LeastSet, Memory, Outcome, Progress, Restriction, SILENT};
+pub use outcome::{Derivation, Incumbent, LeastSet, Memory, Progress, Restriction, SILENT, SearchOutcome};

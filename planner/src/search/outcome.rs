@@ -34,7 +34,7 @@ pub struct LeastSet {
 
 /// How the search ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
+pub enum SearchOutcome {
     /// Bound and derivation meet.
     Least(LeastSet),
     /// The target can't be derived.

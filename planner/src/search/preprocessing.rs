@@ -3,14 +3,14 @@
 use super::fact_landmarks::FactLandmarks;
 use super::forward_chaining::ForwardChaining;
 use super::outcome::Restriction;
-use super::problem::{MEMBERS_A_STEP, Node, Problem};
+use super::problem::{HornRules, MEMBERS_A_STEP, Node};
 use crate::budget::{Interrupted, Ticker};
 use crate::knowledge::KnowledgeBase;
 use crate::scene::ObjectIndex;
 
 /// The preprocessed problem.
 pub(super) struct Preprocessed {
-    pub(super) problem: Problem,
+    pub(super) problem: HornRules,
     /// The fact landmarks of the target: nodes that every derivation holds. Empty where the problem is too large.
     pub(super) fact_landmarks: Vec<Node>,
 }
@@ -53,7 +53,7 @@ pub(super) fn preprocess(
 }
 
 /// The chaining with every node allowed.
-fn everything<'p>(problem: &'p Problem, ticker: &mut Ticker<'_>) -> Result<ForwardChaining<'p>, Interrupted> {
+fn everything<'p>(problem: &'p HornRules, ticker: &mut Ticker<'_>) -> Result<ForwardChaining<'p>, Interrupted> {
     let mut chain = ForwardChaining::new(problem);
     for node in 0..problem.target() {
         ticker.step(1 + chain.steps())?;
@@ -69,7 +69,7 @@ fn reached(
     target: ObjectIndex,
     usable: impl Fn(&[ObjectIndex]) -> bool,
     ticker: &mut Ticker<'_>,
-) -> Result<Problem, Interrupted> {
+) -> Result<HornRules, Interrupted> {
     let mut seen = vec![false; base.len()];
     let mut objects = vec![target];
     let mut at = 0;
@@ -90,5 +90,5 @@ fn reached(
         ticker.step(1 + read / MEMBERS_A_STEP)?;
     }
     objects.reverse();
-    Problem::over(base, objects, usable, ticker)
+    HornRules::over(base, objects, usable, ticker)
 }

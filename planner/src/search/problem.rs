@@ -12,7 +12,7 @@ pub(super) const MEMBERS_A_STEP: usize = 64;
 
 /// Horn rules over nodes.
 #[derive(Debug)]
-pub(super) struct Problem {
+pub(super) struct HornRules {
     /// Node to object, the target last.
     objects: Vec<ObjectIndex>,
     /// Per rule its head.
@@ -23,7 +23,7 @@ pub(super) struct Problem {
     condition_of: Rows<u32>,
 }
 
-impl Problem {
+impl HornRules {
     /// The rules of `objects` (the target last) whose bodies are `usable`. These bodies must name no other object.
     pub(super) fn over(
         base: &KnowledgeBase,

@@ -1,7 +1,7 @@
 //! The search against enumeration.
 
 use super::preprocessing::preprocess;
-use super::{Alternatives, Incumbent, LeastSet, Memory, Outcome, Restriction, least, least_within};
+use super::{Alternatives, Incumbent, LeastSet, Memory, Restriction, SearchOutcome, least, least_within};
 use crate::budget::clocks::Looks;
 use crate::budget::{Budget, Ticker};
 use crate::cost::Cost;
@@ -40,12 +40,12 @@ fn check(options: &[Vec<Vec<usize>>], target: usize) -> Option<LeastSet> {
     let outcome = least(&base(options), ObjectIndex::new(target), &Restriction::default(), &Budget::unlimited());
     let expected = exhaustive(options, target);
     let found = match outcome {
-        Outcome::Least(found) => found,
-        Outcome::Underivable => {
+        SearchOutcome::Least(found) => found,
+        SearchOutcome::Underivable => {
             assert_eq!(expected, None);
             return None;
         }
-        Outcome::Interrupted(_) => unreachable!("the budget never ends"),
+        SearchOutcome::Interrupted(_) => unreachable!("the budget never ends"),
     };
     let order: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
     assert_eq!(Some(u32::try_from(order.len()).unwrap()), expected, "{order:?}");
@@ -90,7 +90,7 @@ fn sets_come_in_order_under_restrictions() {
         let set = |list: &[usize]| list.iter().copied().map(ObjectIndex::new).collect();
         let restriction = Restriction { held: set(held), required: set(required) };
         match least(&base, ObjectIndex::new(0), &restriction, &Budget::unlimited()) {
-            Outcome::Least(found) => {
+            SearchOutcome::Least(found) => {
                 let mut set: Vec<usize> = found.derivation.order.iter().map(|object| object.get()).collect();
                 set.sort_unstable();
                 Some(set)
@@ -157,9 +157,9 @@ proptest! {
         let outcome = least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget);
         let expected = exhaustive(&options, 0);
         match outcome {
-            Outcome::Underivable => prop_assert_eq!(expected, None),
-            Outcome::Interrupted(None) => {}
-            Outcome::Least(found) | Outcome::Interrupted(Some(found)) => {
+            SearchOutcome::Underivable => prop_assert_eq!(expected, None),
+            SearchOutcome::Interrupted(None) => {}
+            SearchOutcome::Least(found) | SearchOutcome::Interrupted(Some(found)) => {
                 let expected = Cost::new(expected.expect("derivable").into());
                 prop_assert!(found.bound <= expected && expected <= found.derivation.cost());
                 let mask = |set: &[ObjectIndex]| set.iter().fold(0_u32, |mask, object| mask | 1 << object.get());
@@ -178,7 +178,7 @@ proptest! {
             least_within(&Memory::default(), &base, ObjectIndex::new(0), &Restriction::default(), &unlimited, &progress);
         let told = told.into_inner();
         prop_assert!(told.is_sorted_by(|(cost, bound), (next, next_bound)| next <= cost && bound <= next_bound));
-        if let Outcome::Least(found) = outcome {
+        if let SearchOutcome::Least(found) = outcome {
             let least = found.derivation.cost();
             prop_assert!(told.iter().all(|(cost, bound)| *bound <= least && least <= *cost), "{told:?}");
         }
@@ -187,7 +187,7 @@ proptest! {
     #[test]
     fn sets_whose_time_ends_go_on_where_they_were(options in (6_usize..11).prop_flat_map(options), looks in 0_usize..60) {
         let (base, target, unlimited) = (base(&options), ObjectIndex::new(0), Budget::unlimited());
-        if let Outcome::Least(first) = least(&base, target, &Restriction::default(), &unlimited) {
+        if let SearchOutcome::Least(first) = least(&base, target, &Restriction::default(), &unlimited) {
             let mut whole = Alternatives::new(&base, target, first.derivation.clone());
             let expected: Vec<_> = core::iter::from_fn(|| whole.next(&unlimited).unwrap()).take(30).collect();
             let clock = Looks::ending_after(looks);

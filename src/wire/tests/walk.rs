@@ -8,7 +8,7 @@ use super::typed::{EDITS, SOUND};
 use super::{has_faults, read, scene};
 use crate::wire::json::Json;
 use crate::wire::malformed::Sound;
-use crate::wire::reader::{Faults, Node};
+use crate::wire::reader::{JsonNode, RequestFaults};
 use crate::wire::walk::walk;
 
 /// Whether the walk takes this text for JSON; the library must be of the same opinion.
@@ -87,7 +87,7 @@ proptest! {
     fn a_number_is_the_same_double_either_way(literal in "-?(0|[1-9][0-9]{0,24})(\\.[0-9]{1,25})?([eE][+-]?[0-9]{1,3})?") {
         let straight = serde_json::from_str::<f64>(&literal).ok();
         let walked = walk(literal.as_bytes()).value.expect("a number");
-        let number = Node::root(&walked).number(&mut Faults::default());
+        let number = JsonNode::root(&walked).number(&mut RequestFaults::default());
         assert_eq!(straight.map(f64::to_bits), number.map(f64::to_bits), "{literal}");
     }
 }

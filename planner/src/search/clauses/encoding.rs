@@ -7,7 +7,7 @@ use super::unfounded_sets::UnfoundedSets;
 use crate::budget::{Interrupted, Ticker};
 use crate::search::forward_chaining::ForwardChaining;
 use crate::search::landmark;
-use crate::search::problem::{Node, Problem};
+use crate::search::problem::{HornRules, Node};
 
 /// The most nodes times rules of a problem for which the landmarks of every node are extracted, which takes some tenths
 /// of a second.
@@ -15,7 +15,7 @@ const MAX_NODES_TIMES_RULES: usize = 1 << 22;
 
 /// The problem, and the facts about its solutions that are known so far.
 pub(in crate::search) struct Facts<'p, 'k> {
-    pub(in crate::search) problem: &'p Problem,
+    pub(in crate::search) problem: &'p HornRules,
     /// The nodes that are in every set.
     pub(in crate::search) forced: &'k [Node],
     /// Forced nodes that a restriction requires: counted even if no rule derives them.
@@ -58,7 +58,7 @@ pub(super) fn encode<'p>(
 }
 
 /// Per rule a literal that implies that its whole body is moved.
-fn rules(problem: &Problem, nodes: &[Lit], solver: &mut Solver<'_>) -> Result<Vec<Lit>, Interrupted> {
+fn rules(problem: &HornRules, nodes: &[Lit], solver: &mut Solver<'_>) -> Result<Vec<Lit>, Interrupted> {
     let mut rules = Vec::with_capacity(problem.rules());
     for rule in 0..u32::try_from(problem.rules()).unwrap_or(u32::MAX) {
         let literal = match problem.body(rule) {

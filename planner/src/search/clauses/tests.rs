@@ -17,7 +17,7 @@ use crate::search::tests::base;
 use crate::search::tests::exhaustive;
 use crate::search::tests::follows;
 use crate::search::tests::options;
-use crate::search::{LeastSet, Outcome, Restriction, least};
+use crate::search::{LeastSet, Restriction, SearchOutcome, least};
 
 /// The bound and the size of the best set by MaxSAT alone, with so many conflicts a turn, until both meet or the budget
 /// ends. `None` if the target can't be derived or time ran out before the first turn.
@@ -131,11 +131,11 @@ const STACK_OPTIMUM: Cost = Cost::new(30);
 fn a_stack_is_settled_by_clauses() {
     let options = stack();
     let solve = || least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &Budget::unlimited());
-    let Outcome::Least(found) = solve() else { unreachable!("the budget never ends") };
+    let SearchOutcome::Least(found) = solve() else { unreachable!("the budget never ends") };
     assert_eq!((found.bound, found.derivation.cost()), (STACK_OPTIMUM, STACK_OPTIMUM));
     assert!(found.proven < found.bound, "its landmarks prove as much as the clauses");
     assert!(is_derived(&options, &found));
-    assert_eq!(solve(), Outcome::Least(found), "a second answer to the same question");
+    assert_eq!(solve(), SearchOutcome::Least(found), "a second answer to the same question");
 }
 
 fn is_derived(options: &[Vec<Vec<usize>>], found: &LeastSet) -> bool {
@@ -152,14 +152,14 @@ fn a_stack_cut_off_anywhere_claims_only_what_holds() {
         let clock = Looks::ending_after(looks);
         let budget = clock.budget();
         match least(&base(&options), ObjectIndex::new(0), &Restriction::default(), &budget) {
-            Outcome::Interrupted(Some(found)) => {
+            SearchOutcome::Interrupted(Some(found)) => {
                 among_clauses += usize::from(found.bound > found.proven);
                 assert!(found.bound <= STACK_OPTIMUM && STACK_OPTIMUM <= found.derivation.cost());
                 assert!(is_derived(&options, &found));
             }
-            Outcome::Interrupted(None) => {}
-            Outcome::Least(found) => break assert_eq!(found.bound, STACK_OPTIMUM),
-            Outcome::Underivable => unreachable!("every layer can be moved"),
+            SearchOutcome::Interrupted(None) => {}
+            SearchOutcome::Least(found) => break assert_eq!(found.bound, STACK_OPTIMUM),
+            SearchOutcome::Underivable => unreachable!("every layer can be moved"),
         }
         looks += 1 + looks / 4;
     }

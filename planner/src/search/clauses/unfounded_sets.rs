@@ -7,12 +7,12 @@ use std::rc::Rc;
 
 use batsat::{Lit, Theory, TheoryArg, lbool};
 
-use crate::search::problem::{Node, Problem};
+use crate::search::problem::{HornRules, Node};
 
 /// A theory of the solver. It chains forward over all that is not assigned false. A node that is moved but not derived
 /// lies in an unfounded set, and the shortest loop nogood of these sets is a conflict.
 pub(super) struct UnfoundedSets<'p> {
-    problem: &'p Problem,
+    problem: &'p HornRules,
     /// Per node the literal "it is moved"; for the target "it is grasped".
     nodes: Vec<Lit>,
     /// Per rule the literal "its whole body is moved".
@@ -34,7 +34,7 @@ pub(super) struct UnfoundedSets<'p> {
 impl<'p> UnfoundedSets<'p> {
     /// The theory of a problem; it counts its work in `work`.
     pub(super) fn new(
-        problem: &'p Problem,
+        problem: &'p HornRules,
         nodes: Vec<Lit>,
         rules: Vec<Lit>,
         underived_required: &[Node],
