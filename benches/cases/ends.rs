@@ -45,7 +45,7 @@ fn once(
 ) -> Option<(Instant, Instant)> {
     let own = Arc::clone(request);
     let plan = move |budget: &singulate_planner::budget::Budget<'_>| {
-        Engine::default().answer(&own, budget, singulate_planner::search::SILENT).is_ok()
+        (Engine::default().plan)(&own, budget, singulate_planner::search::SILENT).is_ok()
     };
     let pending = pool.submit("anonymous", Instant::now(), Duration::from_secs(60), plan).expect("room");
     thread::sleep(moment);

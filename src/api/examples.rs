@@ -74,7 +74,7 @@ impl Answers {
     fn to(scene: &Value) -> Self {
         let (engine, budget, limits) = (Engine::default(), Budget::unlimited(), RequestLimits::default());
         let request = read_scene(scene.to_string().as_bytes(), &limits).expect("the example is a scene");
-        let judged = (engine.plan)(&request.methods, &request.scene, &request.settings, &budget, SILENT);
+        let judged = (engine.plan)(&request, &budget, SILENT);
         let judged = judged.expect("the example is planned");
         let statistics = StatisticsBody { knowledge_ms: 0.04, search_ms: 0.01, placement_ms: 0.2, check_ms: 0.02 };
         let plan = value(&AnswerBody { statistics, ..AnswerBody::new(&request, &judged) });

@@ -1,11 +1,10 @@
 //! The computations that the service offers, and the problems and log lines of their failures.
 
-use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
 use singulate_planner::budget::Budget;
 use singulate_planner::check::{self, Report};
-use singulate_planner::paper::{self, Judged, Methods};
-use singulate_planner::plan::{self, PlanError, Settings, SurveyEntry};
+use singulate_planner::paper::{Judged, plan_by};
+use singulate_planner::plan::{self, PlanError, SurveyEntry};
 use singulate_planner::scene::Scene;
 use singulate_planner::search::Progress;
 use singulate_planner::statement::Statement;
@@ -13,8 +12,8 @@ use singulate_planner::statement::Statement;
 /// The computations: by default the planner's; tests may replace them.
 #[derive(Clone, Copy)]
 pub struct Engine {
-    /// Plan for the scene's target.
-    pub plan: fn(&Methods, &Scene, &Settings, &Budget<'_>, Progress<'_>) -> Result<Judged, PlanError>,
+    /// Plan for a request.
+    pub plan: fn(&PlanRequest, &Budget<'_>, Progress<'_>) -> Result<Judged, PlanError>,
     /// Survey every movable object as the target.
     pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
     /// Check a statement.
@@ -23,29 +22,15 @@ pub struct Engine {
 
 impl Default for Engine {
     fn default() -> Self {
-        Self { plan: paper::plan_by, survey: plan::survey, check: check::check }
+        Self { plan: planned, survey: plan::survey, check: check::check }
     }
 }
 
-impl Engine {
-    /// Plan for a request.
-    ///
-    /// # Errors
-    /// A problem if there is no answer.
-    pub fn answer(
-        &self,
-        request: &PlanRequest,
-        budget: &Budget<'_>,
-        progress: Progress<'_>,
-    ) -> Result<Judged, Problem> {
-        let span = PlanSpan::begin();
-        let judged = (self.plan)(&request.methods, &request.scene, &request.settings, budget, progress);
-        if let (Some(span), Ok(judged)) = (&span, &judged) {
-            span.answered(&judged.answer);
-        }
-        judged.map_err(|error| plan_failed(request, &error))
-    }
+fn planned(request: &PlanRequest, budget: &Budget<'_>, progress: Progress<'_>) -> Result<Judged, PlanError> {
+    plan_by(&request.methods, &request.scene, &request.settings, budget, progress)
+}
 
+impl Engine {
     /// Survey a request's scene.
     ///
     /// # Errors
@@ -56,7 +41,7 @@ impl Engine {
 }
 
 /// The scene is too dense, or the planner failed; then logs all that is needed to reproduce it.
-fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
+pub(super) fn plan_failed(request: &PlanRequest, error: &PlanError) -> Problem {
     let PlanError::Refused(report) = error else { return Problem::too_dense(error.to_string()) };
     let (scene, settings, methods) = (written(request), &request.settings, &request.methods);
     tracing::error!(%scene, ?settings, ?methods, faults = ?report.faults, "an answer failed its check");

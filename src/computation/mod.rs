@@ -12,11 +12,13 @@ use std::sync::Arc;
 use serde::Serialize;
 
 pub use engine::Engine;
+use engine::plan_failed;
 pub use planning::{Planning, note_scene};
 pub use problem::internal;
 pub use reading::KnownRequest;
 
 use crate::metrics::Metrics;
+use crate::traces::PlanSpan;
 use crate::wire::{PlanRequest, Problem, RequestLimits};
 use singulate_planner::budget::Budget;
 use singulate_planner::paper::Judged;
@@ -56,7 +58,7 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// Plan for a request, and measure it.
+    /// Plan for a request, traced and measured.
     ///
     /// # Errors
     /// A problem if there is no answer.
@@ -66,7 +68,9 @@ impl Tools {
         budget: &Budget<'_>,
         progress: Progress<'_>,
     ) -> Result<Judged, Problem> {
-        let judged = self.engine.answer(request, budget, progress)?;
+        let span = PlanSpan::begin();
+        let judged = (self.engine.plan)(request, budget, progress).map_err(|error| plan_failed(request, &error))?;
+        span.iter().for_each(|span| span.answered(&judged.answer));
         self.metrics.planned(&judged.answer);
         Ok(judged)
     }

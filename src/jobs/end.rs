@@ -2,7 +2,7 @@
 
 use super::job::{JobId, MAX_ATTEMPTS};
 use crate::metrics::Ended;
-use crate::wire::{AnswerBody, LoggedProblem, Problem, ProblemKind, RawJson, VerdictWord};
+use crate::wire::{AnswerBody, LoggedProblem, Problem, ProblemKind, RawJson};
 
 /// The end of a running job. A job that was cancelled ends as cancelled, with the answer if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,9 +44,7 @@ impl Concluded {
     /// With an answer of this verdict.
     pub(super) fn with(answer: &AnswerBody<'_>) -> Self {
         match RawJson::write(answer) {
-            Ok(json) => {
-                Self { end: End::Succeeded(json), verdict: answer.verdict.map(VerdictWord::as_str), cause: None }
-            }
+            Ok(json) => Self { end: End::Succeeded(json), verdict: answer.verdict, cause: None },
             Err(error) => {
                 tracing::error!(%error, "an answer could not be written");
                 Self::internal()

@@ -20,7 +20,7 @@ use singulate_planner::statement::{Deadlock, Verdict};
 pub struct AnswerBody<'a> {
     /// The outcome of planning.
     #[schema(value_type = VerdictWord, required = true)]
-    pub verdict: Option<VerdictWord>,
+    pub verdict: Option<&'static str>,
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
     pub scene_id: Option<&'a str>,
@@ -69,7 +69,7 @@ pub struct AnswerBody<'a> {
 }
 
 /// The outcome of planning.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "relocate")]
 pub enum VerdictWord {
@@ -120,7 +120,7 @@ impl<'a> AnswerBody<'a> {
         let Judged { answer: Answer { statement, statistics }, .. } = judged;
         let scene = &request.scene;
         Self {
-            verdict: statement.verdict.map(VerdictWord::from),
+            verdict: statement.verdict.map(Verdict::as_str),
             scene_id: request.scene_id.as_deref(),
             target: scene.object(scene.target()).id(),
             relocations: statement.steps().iter().map(RelocationBody::new).collect(),
@@ -140,7 +140,7 @@ impl<'a> AnswerBody<'a> {
     /// unknown.
     pub fn unread(glance: &'a Glance) -> Option<Self> {
         Some(Self {
-            verdict: Some(VerdictWord::TimedOut),
+            verdict: Some(Verdict::TimedOut.as_str()),
             scene_id: glance.scene_id.as_deref(),
             target: glance.target.as_deref()?,
             relocations: Vec::new(),
@@ -161,32 +161,6 @@ impl<'a> AnswerBody<'a> {
 pub fn warnings(request: &PlanRequest, judged: &Judged) -> Vec<WarningItem> {
     let of_answer = judged.warnings.iter().map(|warning| finding::warning(&request.scene, warning));
     request.warnings.iter().cloned().chain(of_answer).collect()
-}
-
-impl VerdictWord {
-    /// Its name in JSON and logs.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Graspable => Verdict::Graspable,
-            Self::Relocate => Verdict::Relocate,
-            Self::Deadlock => Verdict::Deadlock,
-            Self::NoSpace => Verdict::NoSpace,
-            Self::TimedOut => Verdict::TimedOut,
-        }
-        .as_str()
-    }
-}
-
-impl From<Verdict> for VerdictWord {
-    fn from(verdict: Verdict) -> Self {
-        match verdict {
-            Verdict::Graspable => Self::Graspable,
-            Verdict::Relocate => Self::Relocate,
-            Verdict::Deadlock => Self::Deadlock,
-            Verdict::NoSpace => Self::NoSpace,
-            Verdict::TimedOut => Self::TimedOut,
-        }
-    }
 }
 
 impl<'a> DeadlockBody<'a> {

@@ -6,12 +6,12 @@ use std::time::Instant;
 
 use singulate::api::Engine;
 use singulate::jobs::{JobId, JobSettings, JobState, NewJob, Owner, Runner, Store, Timestamp, open};
+use singulate::wire::PlanRequest;
 use singulate::wire::RequestLimits;
 use singulate::workers::Draining;
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::{Answer, PlanError, Statistics};
 use singulate_planner::search::Progress;
 use singulate_planner::statement::Statement;
 use tokio::time::sleep;
@@ -130,7 +130,7 @@ async fn a_job_that_fails_says_why_in_its_line() {
 
 /// A planner that goes on until its budget ends.
 fn endless() -> Engine {
-    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }

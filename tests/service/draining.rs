@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use singulate::api::{Engine, ServerSettings};
+use singulate::wire::PlanRequest;
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{PlanError, Settings};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::PlanError;
 use singulate_planner::search::Progress;
 
 use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};
@@ -122,7 +122,7 @@ async fn idle_connections_do_not_delay_the_end_of_a_service() {
 async fn a_computation_that_does_not_end_is_left_behind() {
     static RELEASED: AtomicBool = AtomicBool::new(false);
     static RUNNING: AtomicBool = AtomicBool::new(false);
-    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         RUNNING.store(true, Ordering::SeqCst);
         while !RELEASED.load(Ordering::SeqCst) {
             std::thread::sleep(Duration::from_millis(1));

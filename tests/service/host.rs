@@ -10,10 +10,10 @@ use singulate::api::server::run_with;
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
 use singulate::jobs::{client_builder, trusted_roots};
+use singulate::wire::PlanRequest;
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::{Answer, PlanError, Statistics};
 use singulate_planner::search::Progress;
 use singulate_planner::statement::Statement;
 use tokio::net::TcpListener;
@@ -156,7 +156,7 @@ pub(crate) async fn read_to_end(mut stream: TcpStream) -> String {
 
 /// A planner that goes on until its budget ends.
 pub(crate) fn endless() -> Engine {
-    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         while budget.check().is_ok() {
             std::thread::sleep(Duration::from_millis(1));
         }

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use serde_json::json;
 use singulate::api::{Engine, ServerSettings};
+use singulate::wire::PlanRequest;
 use singulate_planner::budget::Budget;
 use singulate_planner::check::Report;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{Answer, PlanError, Settings, Statistics};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::{Answer, PlanError, Statistics};
 use singulate_planner::search::Progress;
 use singulate_planner::statement::Statement;
 
@@ -37,9 +37,7 @@ pub(crate) fn wait_for_the_end(running: &AtomicUsize, budget: &Budget<'_>) -> Re
 macro_rules! endless {
     ($running:ident) => {{
         fn plan(
-            _: &Methods,
-            _: &Scene,
-            _: &Settings,
+            _: &singulate::wire::PlanRequest,
             budget: &Budget<'_>,
             _: singulate_planner::search::Progress<'_>,
         ) -> Result<Judged, PlanError> {
@@ -106,7 +104,7 @@ async fn waiting_for_a_thread_counts_towards_the_time_limit() {
 
 #[tokio::test]
 async fn a_planner_that_forgets_the_time_is_not_waited_for() {
-    fn plan(_: &Methods, _: &Scene, _: &Settings, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, budget: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         // Far past the deadline, until the handler gives up and cancels.
         while budget.elapsed() < Duration::from_secs(2) {
             std::thread::sleep(Duration::from_millis(1));
@@ -120,7 +118,7 @@ async fn a_planner_that_forgets_the_time_is_not_waited_for() {
 
 #[tokio::test]
 async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
-    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         panic!("on purpose");
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;
@@ -132,7 +130,7 @@ async fn a_planner_that_panics_is_a_500_and_the_service_lives_on() {
 
 #[tokio::test]
 async fn an_answer_that_fails_its_check_is_withheld() {
-    fn plan(_: &Methods, _: &Scene, _: &Settings, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
+    fn plan(_: &PlanRequest, _: &Budget<'_>, _: Progress<'_>) -> Result<Judged, PlanError> {
         Err(PlanError::Refused(Report::default()))
     }
     let host = Host::with(ONE_THREAD(1), Engine { plan, ..Engine::default() }).await;

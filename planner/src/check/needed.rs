@@ -8,7 +8,7 @@ use crate::scene::{ObjectIndex, Scene};
 use super::fault::{FaultCode, Faults};
 use super::names::{ObjectNames, relocatable};
 use super::rings::{Ring, Rings};
-use super::ways::way;
+use super::ways::{grasp, way};
 
 struct Moving<'a, 's> {
     scene: &'a Scene,
@@ -63,7 +63,7 @@ impl Moving<'_, '_> {
 
     fn target_is_free(&mut self, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
         let ring = self.ring(self.scene.target(), ticker)?;
-        Ok(self.rings.free_yaw(&ring, |other| !self.moved[other.get()]).is_some())
+        Ok(grasp(self.rings, &ring, |other| !self.moved[other.get()]).is_some())
     }
 
     fn ring(&mut self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<Rc<Ring>, Interrupted> {

@@ -35,17 +35,15 @@ pub(crate) fn confirm(
         return Err(PlanError::Refused(report));
     }
     let confirmed = confirmed_part(scene, stated, &report);
-    Ok(if report.has(FaultCode::LockUnconfirmed) || report.has(FaultCode::ReplayUnconfirmed) {
-        // A deadlock states no bound.
-        let trivial = Statement::timed_out();
-        let (lower_bound, landmarks) = (confirmed.lower_bound, confirmed.landmarks);
-        Statement {
-            lower_bound: lower_bound.or(trivial.lower_bound),
-            landmarks: landmarks.or(trivial.landmarks.clone()),
-            ..trivial
-        }
+    if !report.has(FaultCode::LockUnconfirmed) && !report.has(FaultCode::ReplayUnconfirmed) {
+        return Ok(confirmed);
+    }
+    let timed_out = Statement::timed_out();
+    // A deadlock states no bound.
+    Ok(if confirmed.lower_bound.is_none() {
+        timed_out
     } else {
-        confirmed
+        Statement { lower_bound: confirmed.lower_bound, landmarks: confirmed.landmarks, ..timed_out }
     })
 }
 
@@ -128,14 +126,8 @@ mod tests {
             let mut whole = stated(&scene);
             if !places {
                 let order: Vec<ObjectIndex> = ["east", "west"].map(|id| scene.find(id).unwrap()).into();
-                let bound =
-                    Statement { lower_bound: whole.lower_bound, landmarks: whole.landmarks, ..Statement::default() };
-                whole = Statement {
-                    verdict: Some(Verdict::NoSpace),
-                    needed: Some(ids(&scene, &order)),
-                    ..Statement::timed_out()
-                };
-                (whole.lower_bound, whole.landmarks) = (bound.lower_bound, bound.landmarks);
+                let Statement { lower_bound, landmarks, .. } = whole;
+                whole = Statement { lower_bound, landmarks, ..Statement::no_space(&scene, &order) };
             }
             let mut late = 0;
             for looks in 0..60 {

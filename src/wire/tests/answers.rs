@@ -4,6 +4,7 @@ use core::time::Duration;
 
 use nalgebra::Point2;
 use serde_json::{Value, json};
+use utoipa::PartialSchema;
 
 use super::{has_faults, read, scene, with};
 use crate::wire::*;
@@ -147,4 +148,10 @@ fn a_faulty_scene_in_a_verification_is_told_below_its_place() {
     let both = json!({"scene": with("/target", json!("nobody")), "plan": {"relocations": []}}).to_string();
     let problem = read_verify(both.as_bytes(), &RequestLimits::default()).unwrap_err();
     has_faults(&problem, &[("unknown_target", "/scene/target"), ("missing", "/plan/target_grasp")]);
+}
+
+#[test]
+fn the_verdicts_of_the_document_are_those_that_are_served() {
+    let schema = serde_json::to_value(VerdictWord::schema()).unwrap();
+    assert_eq!(schema["enum"], json!(Verdict::ALL.map(Verdict::as_str)));
 }

@@ -6,9 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use singulate::api::{Engine, ServerSettings};
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{PlanError, Settings};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::PlanError;
 
 use super::{others_are_served, send, served_meanwhile};
 use crate::host::{Host, PATIENCE, raw_plan, read_to_end, scene, wait_until};

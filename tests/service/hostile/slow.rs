@@ -8,10 +8,10 @@ use std::time::Instant;
 
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
+use singulate::wire::PlanRequest;
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{PlanError, Settings};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::PlanError;
 use singulate_planner::search::Progress;
 use tokio::time::sleep;
 
@@ -84,17 +84,11 @@ async fn clients_that_close_their_sending_half_hold_up_nobody() {
 
 /// Plans as ever, but never comes to an end with a scene whose first object is so called.
 fn all_but_one_ends() -> Engine {
-    fn plan(
-        methods: &Methods,
-        scene: &Scene,
-        settings: &Settings,
-        budget: &Budget<'_>,
-        progress: Progress<'_>,
-    ) -> Result<Judged, PlanError> {
-        if scene.objects()[0].id() == "held" {
+    fn plan(request: &PlanRequest, budget: &Budget<'_>, progress: Progress<'_>) -> Result<Judged, PlanError> {
+        if request.scene.objects()[0].id() == "held" {
             return wait_for_the_end(&AtomicUsize::new(0), budget);
         }
-        (Engine::default().plan)(methods, scene, settings, budget, progress)
+        (Engine::default().plan)(request, budget, progress)
     }
     Engine { plan, ..Engine::default() }
 }

@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 use singulate::api::{Engine, ServerSettings};
 use singulate::jobs::JobSettings;
+use singulate::wire::PlanRequest;
 use singulate_planner::budget::Budget;
-use singulate_planner::paper::{Judged, Methods};
-use singulate_planner::plan::{PlanError, Settings};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::plan::PlanError;
 use singulate_planner::search::Progress;
 
 use super::{crowded, ended, path, submit};
@@ -58,15 +58,9 @@ async fn a_queued_job_is_cancelled_at_once_and_a_running_one_with_its_best() {
 
 #[tokio::test]
 async fn a_panic_is_one_failed_job_and_its_worker_lives_on() {
-    fn plan(
-        methods: &Methods,
-        scene: &Scene,
-        settings: &Settings,
-        budget: &Budget<'_>,
-        progress: Progress<'_>,
-    ) -> Result<Judged, PlanError> {
-        assert!(scene.objects().len() > 2, "on purpose");
-        (Engine::default().plan)(methods, scene, settings, budget, progress)
+    fn plan(request: &PlanRequest, budget: &Budget<'_>, progress: Progress<'_>) -> Result<Judged, PlanError> {
+        assert!(request.scene.objects().len() > 2, "on purpose");
+        (Engine::default().plan)(request, budget, progress)
     }
     let host = one_worker(Engine { plan, ..Engine::default() }).await;
     for _ in 0..3 {
