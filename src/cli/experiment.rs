@@ -30,7 +30,7 @@ enum PaperTable {
     #[command(after_help = results::NOT_THE_SAME)]
     Table1 {
         #[command(flatten)]
-        common: Common,
+        arguments: TableArguments,
         /// Episodes for the baseline, which may take the whole time limit for each [default: episodes, at most 20]
         #[arg(long, value_name = "N")]
         base_episodes: Option<usize>,
@@ -39,12 +39,12 @@ enum PaperTable {
     #[command(after_help = results::NOT_THE_SAME)]
     Table2 {
         #[command(flatten)]
-        common: Common,
+        arguments: TableArguments,
     },
 }
 
 #[derive(Debug, Args)]
-struct Common {
+struct TableArguments {
     /// Episodes in each column
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MAX_EPISODES))]
     episodes: usize,
@@ -67,22 +67,22 @@ impl Experiment {
         let mut progress = Progress::start();
         let told = |done: usize, total: usize| progress.tell(done, total);
         match self.table {
-            PaperTable::Table1 { common, base_episodes } => {
-                let settings = common.settings(base_episodes)?;
+            PaperTable::Table1 { arguments, base_episodes } => {
+                let settings = arguments.settings(base_episodes)?;
                 let columns = table1(&settings, told);
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
-                match common.format {
+                match arguments.format {
                     Format::Json => terminal::print_json(&Table1Body::new(&settings, &columns)),
                     Format::Text => terminal::print(&results::table1(&settings, &columns)),
                 }
             }
-            PaperTable::Table2 { common } => {
-                let settings = common.settings(Some(0))?;
+            PaperTable::Table2 { arguments } => {
+                let settings = arguments.settings(Some(0))?;
                 let columns = table2(&settings, told);
                 progress.end();
                 let columns = columns.map_err(|error| failed(&error))?;
-                match common.format {
+                match arguments.format {
                     Format::Json => terminal::print_json(&Table2Body::new(&settings, &columns)),
                     Format::Text => terminal::print(&results::table2(&settings, &columns)),
                 }
@@ -91,7 +91,7 @@ impl Experiment {
     }
 }
 
-impl Common {
+impl TableArguments {
     /// Fails if the baseline would have more episodes than there are.
     fn settings(&self, base_episodes: Option<usize>) -> Result<ExperimentSettings, Failure> {
         let episodes = self.episodes;
