@@ -6,8 +6,7 @@ use std::time::Instant;
 
 use singulate::api::Engine;
 use singulate::jobs::{JobId, JobSettings, JobState, NewJob, Owner, Runner, Store, Timestamp, open};
-use singulate::wire::PlanRequest;
-use singulate::wire::RequestLimits;
+use singulate::wire::{PlanRequest, RequestLimits};
 use singulate::workers::Draining;
 use singulate_planner::budget::Budget;
 use singulate_planner::paper::Judged;
