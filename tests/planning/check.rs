@@ -6,3 +6,4 @@ mod physics;
 mod proofs;
 pub(crate) mod scenes;
 mod served;
+mod terms;

@@ -156,6 +156,8 @@ pub struct Report {
     pub proven_bound: Cost,
     /// The stated landmarks found sound, none a superset of another: they alone prove `proven_bound`.
     pub sound_landmarks: Vec<Vec<ObjectIndex>>,
+    /// The first step with a fault; the number of steps if it is the final grasp of the target.
+    pub first_failing_step: Option<usize>,
     /// True if the budget ended before everything was checked.
     pub interrupted: bool,
 }
@@ -174,9 +176,16 @@ pub const MAX_FAULTS: usize = 1000;
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     list: Vec<Fault>,
+    /// Those that found no room in the list included.
+    count: usize,
 }
 
 impl Faults {
+    /// The number of faults so far.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
     /// A fault of one relocation.
     pub(super) fn of_step(&mut self, code: FaultCode, step: usize, object: &str, detail: impl FnOnce() -> String) {
         self.add(code, Some(step), Some(object), detail);
@@ -199,6 +208,7 @@ impl Faults {
         object: Option<&str>,
         detail: impl FnOnce() -> String,
     ) {
+        self.count += 1;
         if self.list.len() < MAX_FAULTS {
             self.list.push(Fault { code, step, object: object.map(str::to_owned), detail: detail() });
         }

@@ -24,10 +24,12 @@ mod parts;
 mod place;
 mod replay;
 mod rings;
+mod terms;
 mod ways;
 mod yaws;
 
 pub use fault::{Fault, FaultCode, MAX_FAULTS, Report};
+pub use terms::{POSITION_TOLERANCE_RANGE, Terms};
 
 use std::rc::Rc;
 
@@ -39,6 +41,7 @@ use chain::Chain;
 use fault::Faults;
 use names::ObjectNames;
 use near::{Places, Tree};
+use replay::Replayed;
 use rings::{Leaning, Rings};
 
 /// How far a stated answer may be off, m for lengths and rad for slack. Coordinates reach 1e5 m, where a double resolves
@@ -76,18 +79,26 @@ impl<'s> Checker<'s> {
     /// a byte of memory for each object of the scene. The proofs look at the budget about every 100 µs and are reported as
     /// unconfirmed where it ends.
     pub fn check(&mut self, statement: &Statement, budget: &Budget<'_>) -> Report {
-        self.check_for(self.scene, statement, budget)
+        self.check_for(self.scene, statement, &Terms::default(), budget)
     }
 
-    /// The same for an answer to `scene`, which is the checker's scene with any target.
-    pub(crate) fn check_for(&mut self, scene: &Scene, statement: &Statement, budget: &Budget<'_>) -> Report {
-        let Self { names, start, blocked, free, .. } = self;
+    /// The same on other terms, and for an answer to `scene`, which is the checker's scene with any target.
+    pub(crate) fn check_for(
+        &mut self,
+        scene: &Scene,
+        statement: &Statement,
+        terms: &Terms,
+        budget: &Budget<'_>,
+    ) -> Report {
         let mut faults = Faults::default();
-        let places = Places::new(scene, start, statement.steps(), names);
-        parts::agree(statement, &mut faults);
-        let replayed =
-            replay::replay(scene, &places, names, statement, &mut faults, Ticker::patient(PATIENCE, BEAT, budget));
-
+        if !terms.partial {
+            parts::agree(statement, &mut faults);
+        }
+        let Replayed { first_failing_step, interrupted } = self.replayed(scene, statement, terms, &mut faults, budget);
+        if terms.partial {
+            return Report { faults: faults.into_vec(), first_failing_step, interrupted, ..Report::default() };
+        }
+        let Self { names, start, blocked, free, .. } = self;
         let mut ticker = Ticker::every(BEAT, budget);
         let locked = lock::check(scene, names, statement, blocked.rings(), &mut faults, &mut ticker);
         let needed = match &statement.needed {
@@ -101,17 +112,36 @@ impl<'s> Checker<'s> {
         let proof = bound::prove(scene, stated, names, blocked, &mut faults, &mut ticker);
         parts::bounded(statement, &proof, &mut faults);
 
-        let unfinished = replayed.is_err() || locked.is_err() || needed.is_err() || !proof.complete;
+        let unfinished = interrupted || locked.is_err() || needed.is_err() || !proof.complete;
         Report {
             faults: faults.into_vec(),
             proven_bound: proof.bound,
             sound_landmarks: proof.sound,
+            first_failing_step,
             interrupted: unfinished,
         }
+    }
+
+    fn replayed(
+        &self,
+        scene: &Scene,
+        statement: &Statement,
+        terms: &Terms,
+        faults: &mut Faults,
+        budget: &Budget<'_>,
+    ) -> Replayed {
+        let places = Places::new(scene, &self.start, statement.steps(), &self.names);
+        let ticker = Ticker::patient(PATIENCE, BEAT, budget);
+        replay::replay(scene, &places, &self.names, statement, terms, faults, ticker)
     }
 }
 
 /// Check one stated answer.
 pub fn check(scene: &Scene, statement: &Statement, budget: &Budget<'_>) -> Report {
-    Checker::new(scene).check(statement, budget)
+    check_on(scene, statement, &Terms::default(), budget)
+}
+
+/// The same on other terms.
+pub fn check_on(scene: &Scene, statement: &Statement, terms: &Terms, budget: &Budget<'_>) -> Report {
+    Checker::new(scene).check_for(scene, statement, terms, budget)
 }

@@ -15,6 +15,7 @@ use super::measure::apart;
 use super::names::ObjectNames;
 use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
+use super::terms::Terms;
 
 /// The largest yaw whose digits still resolve 1e-9 rad after reduction modulo whole turns.
 const MAX_YAW: f64 = 1e6;
@@ -24,8 +25,18 @@ struct Replay<'a> {
     places: &'a Places,
     names: &'a ObjectNames<'a>,
     standing: Standing,
+    terms: &'a Terms,
     faults: &'a mut Faults,
+    first_failing_step: Option<usize>,
     ticker: Ticker<'a>,
+}
+
+/// How far a replay came.
+pub(super) struct Replayed {
+    /// The first step with a fault; the number of steps if it is the final grasp.
+    pub(super) first_failing_step: Option<usize>,
+    /// True if time ran out before the end.
+    pub(super) interrupted: bool,
 }
 
 /// Replay the stated steps, then grasp the target. A step that can't be carried out (unknown object, no such place) is
@@ -35,15 +46,17 @@ pub(super) fn replay<'a>(
     places: &'a Places,
     names: &'a ObjectNames<'a>,
     statement: &Statement,
+    terms: &'a Terms,
     faults: &'a mut Faults,
     ticker: Ticker<'a>,
-) -> Result<(), Interrupted> {
-    let mut replay = Replay { scene, places, names, standing: Standing::default(), faults, ticker };
-    let replayed = replay.run(statement);
-    if replayed.is_err() {
+) -> Replayed {
+    let standing = Standing::default();
+    let mut replay = Replay { scene, places, names, standing, terms, faults, first_failing_step: None, ticker };
+    let interrupted = replay.run(statement).is_err();
+    if interrupted {
         replay.faults.of_answer(FaultCode::ReplayUnconfirmed, || "time ran out before all steps were replayed".into());
     }
-    replayed
+    Replayed { first_failing_step: replay.first_failing_step, interrupted }
 }
 
 /// True for an answer with a final grasp of the target.
@@ -58,15 +71,33 @@ pub(super) fn ends_in_grasp(statement: &Statement) -> bool {
 impl Replay<'_> {
     fn run(&mut self, statement: &Statement) -> Result<(), Interrupted> {
         for (at, step) in statement.steps().iter().enumerate() {
-            match step {
-                Step::PickPlace(step) => self.pick_place(at, step)?,
-            }
+            self.noting(at, |replay| match step {
+                Step::PickPlace(step) => replay.pick_place(at, step),
+            })?;
         }
+        self.noting(statement.steps().len(), |replay| replay.target_grasp(statement))
+    }
+
+    /// Replays the step at this position. Notes it if it is the first with a fault.
+    fn noting(
+        &mut self,
+        at: usize,
+        step: impl FnOnce(&mut Self) -> Result<(), Interrupted>,
+    ) -> Result<(), Interrupted> {
+        let before = self.faults.count();
+        let replayed = step(self);
+        if self.faults.count() > before {
+            self.first_failing_step.get_or_insert(at);
+        }
+        replayed
+    }
+
+    fn target_grasp(&mut self, statement: &Statement) -> Result<(), Interrupted> {
         if let Some(grasp) = statement.target_grasp {
             let target = self.scene.target();
             return self.grasp(FaultCode::TargetBlocked, None, target, self.footprint(target), grasp);
         }
-        if ends_in_grasp(statement) {
+        if !self.terms.partial && ends_in_grasp(statement) {
             self.faults.of_answer(FaultCode::MissingPart, || "a plan needs its target_grasp".into());
         }
         Ok(())
@@ -86,7 +117,8 @@ impl Replay<'_> {
         let place = self.places.footprint(to);
         let (scene, places, standing) = (self.scene, self.places, &self.standing);
         let landing = Landing { scene, places, standing, step: at, object, to: place };
-        landing.check(step.gap, self.faults, &mut self.ticker)?;
+        let gap = step.gap.filter(|_| self.terms.exact());
+        landing.check(gap, self.faults, &mut self.ticker)?;
         self.grasp(FaultCode::ReleaseBlocked, Some(at), object, place, step.release)?;
         self.standing.put(object, to);
         Ok(())
@@ -113,7 +145,7 @@ impl Replay<'_> {
     fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Pose) {
         let real = self.footprint(object).pose;
         // NaN agrees with nothing.
-        let agrees = apart(real, stated) <= TOLERANCE;
+        let agrees = apart(real, stated) <= TOLERANCE + self.terms.position_tolerance;
         if !agrees {
             let detail = || format!("stands at {}, not at {}", point(real.at), point(stated.at));
             self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), detail);
@@ -123,7 +155,8 @@ impl Replay<'_> {
     /// The band of yaws (rad, on each side) that must be free, if the figures are valid.
     fn band(&mut self, step: Option<usize>, object: ObjectIndex, grasp: StatedGrasp) -> Option<f64> {
         let (id, gripper) = (self.scene.object(object).id(), self.scene.gripper());
-        let slack = grasp.slack.unwrap_or(0.0);
+        let stated = grasp.slack.filter(|_| self.terms.exact());
+        let slack = stated.unwrap_or(0.0);
         if !(grasp.yaw.abs() <= MAX_YAW && slack.is_finite()) {
             let detail = || format!("yaw {:e} with slack {slack:e} can't be resolved", grasp.yaw);
             self.faults.add(FaultCode::NumberOutOfRange, step, Some(id), detail);
@@ -132,7 +165,7 @@ impl Replay<'_> {
         let (least, most) = (gripper.yaw_tolerance(), PI / f64::from(gripper.fingers()));
         // Without obstacles the slack is π/k even if the tolerance is more.
         let in_range = (least.min(most) - TOLERANCE..=most + TOLERANCE).contains(&slack);
-        if grasp.slack.is_some() && !in_range {
+        if stated.is_some() && !in_range {
             let detail = || format!("slack {} is not between {least:.9} and {most:.9} rad", figure(slack));
             self.faults.add(FaultCode::WrongSlack, step, Some(id), detail);
         }

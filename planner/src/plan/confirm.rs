@@ -2,7 +2,7 @@
 
 use super::stated::ids;
 use crate::budget::Budget;
-use crate::check::{Checker, FaultCode, Report};
+use crate::check::{Checker, FaultCode, Report, Terms};
 use crate::knowledge::NoBase;
 use crate::scene::Scene;
 use crate::statement::Statement;
@@ -30,7 +30,7 @@ pub(crate) fn confirm(
     stated: Statement,
     budget: &Budget<'_>,
 ) -> Result<Statement, PlanError> {
-    let report = checker.check_for(scene, &stated, budget);
+    let report = checker.check_for(scene, &stated, &Terms::default(), budget);
     if report.faults.iter().any(|fault| !fault.code.means_late()) {
         return Err(PlanError::Refused(report));
     }

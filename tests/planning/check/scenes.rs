@@ -55,6 +55,22 @@ impl Builder {
         self
     }
 
+    /// The object `id` stands somewhere else.
+    pub(crate) fn move_to(mut self, id: &str, x: f64, y: f64) -> Self {
+        let object = self.0.objects.iter_mut().find(|object| object.id.as_deref() == Some(id));
+        let object = object.expect("an object of the scene");
+        (object.x, object.y) = (Some(x), Some(y));
+        self
+    }
+
+    /// Every object stands `off` m farther along both axes.
+    pub(crate) fn shift(mut self, off: f64) -> Self {
+        for object in &mut self.0.objects {
+            (object.x, object.y) = (object.x.map(|x| x + off), object.y.map(|y| y + off));
+        }
+        self
+    }
+
     /// The object `id` can't be moved.
     pub(crate) fn fix(mut self, id: &str) -> Self {
         let object = self.0.objects.iter_mut().find(|object| object.id.as_deref() == Some(id));
