@@ -82,7 +82,7 @@ impl Answers {
         let known = known(&request.scene, request.methods.grasp_model.model(), &budget).expect("the example is small");
         let verify = json!({"scene": scene, "plan": plan});
         let stated = read_verify(verify.to_string().as_bytes(), &limits).expect("what was answered can be stated");
-        let report = (engine.check)(&stated.request.scene, &stated.statement, &budget);
+        let report = (engine.check)(&stated.request.scene, &stated.statement, &stated.terms, &budget);
         Self {
             plan,
             survey: value(&SurveyBody::new(&request.scene, &survey)),

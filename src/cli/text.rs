@@ -185,7 +185,14 @@ pub(super) fn verification(body: &VerificationBody) -> String {
     }
     let count = body.faults.len();
     let lines: String = body.faults.iter().map(|fault| self::fault(fault) + "\n").collect();
-    format!("not valid: {count} {}\n{lines}", if count == 1 { "fault" } else { "faults" })
+    let again = match body.first_failing_step {
+        Some(step) => {
+            format!("Plan again: step {} fails. The grasp of the target counts as the last step.\n", step + 1)
+        }
+        None if body.replan => "Plan again: time ran out before all steps were replayed.\n".to_owned(),
+        None => String::new(),
+    };
+    format!("not valid: {count} {}\n{lines}{again}", if count == 1 { "fault" } else { "faults" })
 }
 
 /// One fault, steps counted from 1 as in the table of steps.

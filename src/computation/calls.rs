@@ -69,8 +69,8 @@ impl Computation for Verification {
     }
 
     fn compute(self, tools: &Tools, stated: &VerifyRequest, budget: &Budget<'_>) -> Served {
-        let VerifyRequest { request, statement } = stated;
-        json(&VerificationBody::new(&(tools.engine.check)(&request.scene, statement, budget)))
+        let VerifyRequest { request, statement, terms } = stated;
+        json(&VerificationBody::new(&(tools.engine.check)(&request.scene, statement, terms, budget)))
     }
 
     fn too_late(self, _: KnownRequest<'_, VerifyRequest>) -> Served {

@@ -2,7 +2,7 @@
 
 use crate::wire::{PlanRequest, Problem, ProblemKind, SceneBody, SettingsBody};
 use singulate_planner::budget::Budget;
-use singulate_planner::check::{self, Report};
+use singulate_planner::check::{Report, Terms, check_on};
 use singulate_planner::paper::{Judged, plan_by};
 use singulate_planner::plan::{self, PlanError, SurveyEntry};
 use singulate_planner::scene::Scene;
@@ -16,13 +16,13 @@ pub struct Engine {
     pub plan: fn(&PlanRequest, &Budget<'_>, Progress<'_>) -> Result<Judged, PlanError>,
     /// Survey every movable object as the target.
     pub survey: fn(&Scene, &Budget<'_>) -> Result<Vec<SurveyEntry>, PlanError>,
-    /// Check a statement.
-    pub check: fn(&Scene, &Statement, &Budget<'_>) -> Report,
+    /// Check a statement on these terms.
+    pub check: fn(&Scene, &Statement, &Terms, &Budget<'_>) -> Report,
 }
 
 impl Default for Engine {
     fn default() -> Self {
-        Self { plan: planned, survey: plan::survey, check: check::check }
+        Self { plan: planned, survey: plan::survey, check: check_on }
     }
 }
 

@@ -15,6 +15,7 @@ use super::request::{REQUEST, request};
 use super::scene::SceneBody;
 use super::step::{self, StatedGraspBody, StatedRelocation};
 use super::typed;
+use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
 use singulate_planner::cost::Cost;
 use singulate_planner::scene::Scene;
 use singulate_planner::statement::{Deadlock, Statement, Verdict};
@@ -27,6 +28,14 @@ pub struct VerifyBody {
     pub scene: SceneBody,
     /// The answer as it was served, or just its `relocations` and `target_grasp`.
     pub plan: PlanBody,
+    /// How far an object may stand from the `from` of its step, m. Everything is checked at the places of `scene`, with the
+    /// gripper's axis moved along. Above 0, stated slacks and gaps are not compared. Default: 0.
+    #[schema(minimum = 0, maximum = 1, example = 0.002)]
+    pub position_tolerance: Option<f64>,
+    /// True if `plan` has only the steps that are left, or the next one. Then only `relocations` and `target_grasp` are
+    /// checked, and `target_grasp` may be absent. Default: false.
+    #[schema(example = false)]
+    pub partial: Option<bool>,
 }
 
 /// The answer to check. Parts that are absent or null are not checked.
@@ -106,6 +115,8 @@ pub struct VerifyRequest {
     pub request: PlanRequest,
     /// The stated answer.
     pub statement: Statement,
+    /// The terms on which it is checked.
+    pub terms: Terms,
 }
 
 impl AsRef<PlanRequest> for VerifyRequest {
@@ -114,7 +125,7 @@ impl AsRef<PlanRequest> for VerifyRequest {
     }
 }
 
-const VERIFY: FieldNames = FieldNames::of(&["scene", "plan"]);
+const VERIFY: FieldNames = FieldNames::of(&["scene", "plan", "position_tolerance", "partial"]);
 const PLAN: FieldNames = FieldNames::of(&[
     "verdict",
     "scene_id",
@@ -144,10 +155,10 @@ pub fn read_verify(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest,
 }
 
 pub(super) fn sound(body: &[u8], limits: &RequestLimits) -> Option<VerifyRequest> {
-    let (stated, plan) = typed::verification(body, limits)?;
+    let (stated, plan, terms) = typed::verification(body, limits)?;
     let request = stated.sound(&Path::Root.field("scene"), limits)?;
-    let statement = read_plan(plan.as_bytes(), &request.scene).ok()?;
-    Some(VerifyRequest { request, statement })
+    let statement = read_plan(plan.as_bytes(), &request.scene, terms.partial).ok()?;
+    Some(VerifyRequest { request, statement, terms })
 }
 
 pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyRequest, Problem> {
@@ -156,14 +167,14 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyReques
     faults.judge(request)
 }
 
-/// Read a stated answer alone. Its `target`, if any, must be the scene's.
+/// Read a stated answer alone, or a part of its plan. Its `target`, if any, must be the scene's.
 ///
 /// # Errors
 /// A problem with every fault of the body.
-pub fn read_plan(body: &[u8], scene: &Scene) -> Result<Statement, Problem> {
+pub fn read_plan(body: &[u8], scene: &Scene, partial: bool) -> Result<Statement, Problem> {
     let (value, mut faults) = parse(body)?;
     let target = scene.object(scene.target()).id();
-    let statement = plan(JsonNode::root(&value), Some(target), &mut faults);
+    let statement = plan(JsonNode::root(&value), Some(target), partial, &mut faults);
     faults.judge(statement)
 }
 
@@ -171,11 +182,22 @@ fn verify(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults
     let fields = node.fields(&VERIFY, faults)?;
     let request = fields.required("scene", faults, |node, faults| request(node, &REQUEST, limits, faults));
     let target = request.as_ref().map(|PlanRequest { scene, .. }| scene.object(scene.target()).id());
-    let statement = fields.required("plan", faults, |node, faults| plan(node, target, faults));
-    Some(VerifyRequest { statement: statement?, request: request? })
+    let position_tolerance = fields
+        .optional("position_tolerance", 0.0, faults, |node, faults| node.ranged(POSITION_TOLERANCE_RANGE, faults));
+    let partial = fields.optional("partial", false, faults, |node, faults| node.boolean(faults));
+    // Where it can't be read, nothing is asked for that a part of a plan may lack.
+    let lenient = partial.unwrap_or(true);
+    let statement = fields.required("plan", faults, |node, faults| plan(node, target, lenient, faults));
+    let terms = Terms { position_tolerance: position_tolerance?, partial: partial? };
+    Some(VerifyRequest { statement: statement?, request: request?, terms })
 }
 
-fn plan(node: JsonNode<'_>, scene_target: Option<&str>, faults: &mut RequestFaults) -> Option<Statement> {
+fn plan(
+    node: JsonNode<'_>,
+    scene_target: Option<&str>,
+    partial: bool,
+    faults: &mut RequestFaults,
+) -> Option<Statement> {
     let fields = node.fields(&PLAN, faults)?;
     let verdict = fields.stated("verdict", faults, |node, faults| {
         node.word(&Verdict::ALL.map(|verdict| (verdict.as_str(), verdict)), faults)
@@ -187,7 +209,7 @@ fn plan(node: JsonNode<'_>, scene_target: Option<&str>, faults: &mut RequestFaul
         Some(node.list(faults, |node, faults| step::read(node, faults).map(Some))?.into_iter().flatten().collect())
     });
     // Without a verdict, only the steps and the last grasp can be checked.
-    if !fields.states("verdict") && !fields.states("target_grasp") {
+    if !partial && !fields.states("verdict") && !fields.states("target_grasp") {
         fields.missing("target_grasp", faults);
     }
     fields.stated("warnings", faults, |node, faults| node.list(faults, |node, faults| node.any_object(faults)));

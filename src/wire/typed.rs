@@ -15,6 +15,7 @@ use super::plan_request::StatedRequest;
 use super::reader::{JsonNode, parse};
 use super::settings::StatedSettings;
 use super::walk::MAX_DEPTH;
+use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
 use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft, TableDraft};
 
 /// How deep a plan may be nested: the body of a verification is one level more.
@@ -36,14 +37,20 @@ pub(super) fn job(body: &[u8], limits: &RequestLimits) -> Option<(StatedRequest,
     sound.then_some((fields.scene(limits)?, url, priority))
 }
 
-/// A verification: the planning request, and the text of the plan. `None` if the request has a fault, its scene
+/// A verification: the planning request, the text of the plan, and the terms. `None` if anything has a fault, scene and plan
 /// excepted.
-pub(super) fn verification<'t>(body: &'t [u8], limits: &RequestLimits) -> Option<(StatedRequest, &'t str)> {
+pub(super) fn verification<'t>(body: &'t [u8], limits: &RequestLimits) -> Option<(StatedRequest, &'t str, Terms)> {
     let fields = object::<VerifyFields<'t>>(body)?;
     let plan = fields.plan.get();
     // Read by itself the plan could be nested one deeper than in its body.
     let sound = nesting(plan) <= MAX_PLAN_NESTING;
-    sound.then_some((fields.scene.0.scene(limits)?, plan))
+    let terms = Terms {
+        position_tolerance: fields.position_tolerance.unwrap_or_default(),
+        partial: fields.partial.unwrap_or_default(),
+    };
+    let (least, greatest) = POSITION_TOLERANCE_RANGE;
+    let sound = sound && (least..=greatest).contains(&terms.position_tolerance);
+    sound.then_some((fields.scene.0.scene(limits)?, plan, terms))
 }
 
 /// How deep the lists and objects of a JSON text are nested.
@@ -105,6 +112,8 @@ struct VerifyFields<'t> {
     scene: Object<RequestFields<'t>>,
     #[serde(borrow)]
     plan: &'t RawValue,
+    position_tolerance: Option<f64>,
+    partial: Option<bool>,
 }
 
 /// A planning request's fields, and two of jobs.

@@ -4,7 +4,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::code::ERRORS_PAGE;
-use singulate_planner::check::{Fault, Report};
+use singulate_planner::check::{Fault, FaultCode, Report};
 
 /// The result of the independent check.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
@@ -18,6 +18,14 @@ pub struct VerificationBody {
         "see": "docs/errors.md#plan-unknown_object"
     }]))]
     pub faults: Vec<FaultBody>,
+    /// The first step with a fault, counted from 0. The number of steps if it is the final grasp of the target. Null if no step
+    /// has a fault.
+    #[schema(required = true, example = 0)]
+    pub first_failing_step: Option<usize>,
+    /// True if a step has a fault, the final grasp included, or if time ran out before all of them were replayed. False if all
+    /// can be carried out, even if a bound or another statement does not hold.
+    #[schema(example = true)]
+    pub replan: bool,
 }
 
 /// One fault of an answer.
@@ -47,12 +55,14 @@ impl VerificationBody {
         if report.interrupted {
             faults.push(FaultBody::interrupted());
         }
-        Self { valid: faults.is_empty(), faults }
+        let first_failing_step = report.first_failing_step;
+        let replan = first_failing_step.is_some() || report.has(FaultCode::ReplayUnconfirmed);
+        Self { valid: faults.is_empty(), faults, first_failing_step, replan }
     }
 
     /// The report if the time limit came before anything was checked.
     pub fn timed_out() -> Self {
-        Self { valid: false, faults: vec![FaultBody::interrupted()] }
+        Self { valid: false, faults: vec![FaultBody::interrupted()], first_failing_step: None, replan: true }
     }
 }
 
@@ -80,5 +90,17 @@ mod tests {
     fn a_report_without_faults_that_was_cut_short_is_not_valid() {
         assert!(VerificationBody::new(&Report::default()).valid);
         assert!(!VerificationBody::new(&Report { interrupted: true, ..Report::default() }).valid);
+    }
+
+    #[test]
+    fn a_plan_is_needed_anew_where_a_step_fails_or_was_not_replayed() {
+        let late = |code| vec![Fault { code, step: None, object: None, detail: String::new() }];
+        let replan = |first_failing_step, faults| {
+            VerificationBody::new(&Report { first_failing_step, faults, interrupted: true, ..Report::default() }).replan
+        };
+        assert!(replan(Some(0), Vec::new()));
+        assert!(replan(None, late(FaultCode::ReplayUnconfirmed)));
+        assert!(!replan(None, late(FaultCode::BoundUnconfirmed)));
+        assert!(VerificationBody::timed_out().replan);
     }
 }

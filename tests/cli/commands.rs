@@ -73,7 +73,7 @@ fn verify_answers_with_status_0_whether_the_plan_holds_or_not() {
     let scene = scene.to_str().unwrap();
     let plan = answered(run(&["plan", scene]));
     let verified = json(&answered(run_with_input(&["verify", scene, "-"], &plan)));
-    assert_eq!(verified, json(r#"{"valid": true, "faults": []}"#));
+    assert_eq!(verified, json(r#"{"valid": true, "faults": [], "first_failing_step": null, "replan": false}"#));
     let mut lifted = json(&plan);
     lifted["relocations"][0]["to"]["x"] = lifted["relocations"][1]["to"]["x"].clone();
     lifted["relocations"][0]["to"]["y"] = lifted["relocations"][1]["to"]["y"].clone();
@@ -81,6 +81,28 @@ fn verify_answers_with_status_0_whether_the_plan_holds_or_not() {
     assert_eq!(verified["valid"], false);
     let text = answered(run_with_input(&["verify", scene, "-", "--format", "text"], &lifted.to_string()));
     assert!(text.starts_with("not valid: "), "{text}");
+}
+
+#[test]
+fn verify_tells_whether_what_is_left_of_a_plan_can_be_carried_out() {
+    let scene = file("verify-left.json", CROWD);
+    let scene = scene.to_str().unwrap();
+    let mut plan = json(&answered(run(&["plan", scene])));
+    let x = &mut plan["relocations"][0]["from"]["x"];
+    *x = (x.as_f64().unwrap() + 0.001).into();
+    plan["relocations"].as_array_mut().unwrap().truncate(1);
+    plan["target_grasp"] = Value::Null;
+    let next = plan.to_string();
+    let verified = |flags: &[&str]| json(&answered(run_with_input(&[&["verify", scene, "-"], flags].concat(), &next)));
+    let answer = verified(&["--partial", "--position-tolerance", "0.002"]);
+    assert_eq!((&answer["valid"], &answer["replan"]), (&true.into(), &false.into()), "{answer}");
+    let answer = verified(&["--partial"]);
+    assert_eq!((&answer["first_failing_step"], &answer["faults"][0]["code"]), (&0.into(), &"wrong_from".into()));
+    assert_eq!(verified(&["--position-tolerance", "0.002"])["first_failing_step"], 1, "the final grasp is absent");
+    for metres in ["-0.001", "1.5", "nan", "inf", "2mm"] {
+        let metres = format!("--position-tolerance={metres}");
+        failed(&run_with_input(&["verify", scene, "-", &metres], &next), 2);
+    }
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn no_generated_scene_gets_an_answer_that_fails_its_check() {
         let body = serde_json::to_vec(&SceneBody::new(&scene, None)).unwrap();
         let (verdict, served) = answer(&body);
         assert_eq!(answer(&body).1, served, "seed {seed}: the same bytes on a second run");
-        let stated = read_plan(&served, &scene).unwrap();
+        let stated = read_plan(&served, &scene, false).unwrap();
         assert_eq!(check(&scene, &stated, &Budget::unlimited()).faults, [], "seed {seed}");
         *verdicts.entry(verdict).or_default() += 1;
     }

@@ -48,7 +48,7 @@ fn planned(request: &PlanRequest) -> Judged {
 fn answered(request: &PlanRequest, named: &str) -> Statement {
     let judged = planned(request);
     let served = serde_json::to_vec(&AnswerBody::new(request, &judged)).unwrap();
-    let stated = read_plan(&served, &request.scene).unwrap();
+    let stated = read_plan(&served, &request.scene, false).unwrap();
     assert_eq!(check(&request.scene, &stated, &Budget::unlimited()).faults, [], "{named}");
     judged.answer.statement
 }

@@ -143,7 +143,7 @@ async fn every_golden_scene_is_answered_in_form_and_the_answer_holds() {
         // As served, to the byte.
         let question = format!("{{\"scene\":{body},\"plan\":{}}}", reply.text);
         let verification = post(&host, "/v1/plans/verify", "application/json", question).await;
-        assert_eq!(verification.text, r#"{"valid":true,"faults":[]}"#);
+        assert_eq!(verification.text, r#"{"valid":true,"faults":[],"first_failing_step":null,"replan":false}"#);
     }
 }
 

@@ -55,7 +55,10 @@ async fn a_large_scene_is_answered_like_a_small_one() {
     assert_eq!(reply.status, 200);
     assert_ne!(reply.json()["verdict"], "timed_out");
     let question = json!({"scene": scene, "plan": reply.json()});
-    assert_eq!(host.post("/v1/plans/verify", &question).await.text, r#"{"valid":true,"faults":[]}"#);
+    assert_eq!(
+        host.post("/v1/plans/verify", &question).await.text,
+        r#"{"valid":true,"faults":[],"first_failing_step":null,"replan":false}"#
+    );
     scene["objects"][7999]["radius"] = json!(-1);
     let reply = host.post("/v1/plans", &scene).await;
     reply.is_problem(422, "invalid_request");

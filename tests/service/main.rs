@@ -5,6 +5,7 @@
 mod bodies;
 mod browsers;
 mod calls;
+mod carried_out;
 mod connections;
 mod described;
 mod document;

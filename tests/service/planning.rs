@@ -100,6 +100,7 @@ async fn waiting_for_a_thread_counts_towards_the_time_limit() {
     let plan = json!({"relocations": [], "target_grasp": {"yaw": 0}});
     let verification = host.post("/v1/plans/verify", &json!({"scene": scene(50), "plan": plan})).await.json();
     assert_eq!((&verification["valid"], &verification["faults"][0]["code"]), (&json!(false), &json!("interrupted")));
+    assert_eq!((&verification["first_failing_step"], &verification["replan"]), (&json!(null), &json!(true)));
 }
 
 #[tokio::test]

@@ -181,6 +181,22 @@ fn a_verification_lists_its_faults_with_steps_counted_from_one() {
 }
 
 #[test]
+fn a_verification_says_when_to_plan_again() {
+    let fault = |code| Fault { code, step: None, object: None, detail: "why".to_owned() };
+    let text = |first_failing_step, code| {
+        let report = Report { faults: vec![fault(code)], first_failing_step, ..Report::default() };
+        verification(&VerificationBody::new(&report))
+    };
+    let fails = "Plan again: step 3 fails. The grasp of the target counts as the last step.\n";
+    assert_eq!(text(Some(2), FaultCode::TargetBlocked), format!("not valid: 1 fault\n  why (target_blocked)\n{fails}"));
+    assert!(
+        text(None, FaultCode::ReplayUnconfirmed)
+            .ends_with("Plan again: time ran out before all steps were replayed.\n")
+    );
+    assert!(!text(None, FaultCode::BoundUnproven).contains("Plan again"));
+}
+
+#[test]
 fn an_id_neither_forges_a_line_nor_turns_it_round() {
     assert_eq!(plain("a\u{1b}b\u{202e}c\u{2028}d é"), "a\\u{1b}b\\u{202e}c\\u{2028}d é");
 }

@@ -9,7 +9,7 @@ use utoipa::PartialSchema;
 use super::{has_faults, read, scene, with};
 use crate::wire::*;
 use singulate_planner::budget::Budget;
-use singulate_planner::check::{FaultCode, check};
+use singulate_planner::check::{FaultCode, Terms, check};
 use singulate_planner::cost::Cost;
 use singulate_planner::paper::{Judged, plan_by};
 use singulate_planner::plan::{Answer, Statistics};
@@ -90,11 +90,11 @@ fn an_answer_as_served_reads_as_the_statement_that_was_checked() {
     let request = read(&scene().to_string()).unwrap();
     for statement in statements() {
         let body = serde_json::to_value(AnswerBody::new(&request, &judged(statement.clone()))).unwrap();
-        assert_eq!(read_plan(body.to_string().as_bytes(), &request.scene).unwrap(), statement);
+        assert_eq!(read_plan(body.to_string().as_bytes(), &request.scene, false).unwrap(), statement);
         let both = json!({"scene": scene(), "plan": body}).to_string();
         assert_eq!(read_verify(both.as_bytes(), &RequestLimits::default()).unwrap().statement, statement);
     }
-    let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#, &request.scene).unwrap();
+    let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#, &request.scene, false).unwrap();
     assert_eq!((short.verdict, short.cost, short.target_grasp.unwrap().yaw), (None, None, 1.0));
 }
 
@@ -114,7 +114,7 @@ fn an_answer_that_is_served_with_from_and_to_swapped_fails_its_check() {
     }
     assert!(!swapped.statement().steps().is_empty());
     let served = serde_json::to_string(&AnswerBody::new(&request, &swapped)).unwrap();
-    for stated in [swapped.statement(), &read_plan(served.as_bytes(), &request.scene).unwrap()] {
+    for stated in [swapped.statement(), &read_plan(served.as_bytes(), &request.scene, false).unwrap()] {
         assert!(check(&request.scene, stated, &budget).has(FaultCode::WrongFrom));
     }
 }
@@ -154,4 +154,32 @@ fn a_faulty_scene_in_a_verification_is_told_below_its_place() {
 fn the_verdicts_of_the_document_are_those_that_are_served() {
     let schema = serde_json::to_value(VerdictWord::schema()).unwrap();
     assert_eq!(schema["enum"], json!(Verdict::ALL.map(Verdict::as_str)));
+}
+
+#[test]
+fn the_terms_of_a_verification_are_read_and_refused_at_their_place() {
+    let limits = RequestLimits::default();
+    let body = |terms: &Value, plan: &Value| {
+        let mut body = json!({"scene": scene(), "plan": plan});
+        body.as_object_mut().unwrap().extend(terms.as_object().unwrap().clone());
+        body.to_string().into_bytes()
+    };
+    let (whole, next) = (bodies().swap_remove(1), json!({"relocations": []}));
+    let read = |terms: Value, plan: &Value| read_verify(&body(&terms, plan), &limits);
+    let terms = |position_tolerance, partial| Terms { position_tolerance, partial };
+    assert_eq!(read(json!({}), &whole).unwrap().terms, Terms::default());
+    assert_eq!(read(json!({"position_tolerance": null, "partial": null}), &whole).unwrap().terms, Terms::default());
+    let both = json!({"position_tolerance": 0.002, "partial": true});
+    assert_eq!(read(both, &next).unwrap().terms, terms(0.002, true));
+    for (stated, code, pointer) in [
+        (json!({"position_tolerance": -0.001}), "out_of_range", "/position_tolerance"),
+        (json!({"position_tolerance": 2}), "out_of_range", "/position_tolerance"),
+        (json!({"position_tolerance": "2 mm"}), "wrong_type", "/position_tolerance"),
+        (json!({"partial": 1}), "wrong_type", "/partial"),
+        (json!({"tolerance": 1}), "unknown_field", "/tolerance"),
+    ] {
+        has_faults(&read(stated, &whole).unwrap_err(), &[(code, pointer)]);
+    }
+    // A whole plan needs its final grasp.
+    has_faults(&read(json!({"partial": false}), &next).unwrap_err(), &[("missing", "/plan/target_grasp")]);
 }

@@ -121,6 +121,31 @@ fn a_plan_is_nested_as_deep_as_its_body_may_be() {
     }
 }
 
+#[test]
+fn the_terms_of_a_verification_are_read_alike() {
+    let limits = RequestLimits::default();
+    for (terms, sound) in [
+        (r#""position_tolerance": 0.002, "partial": true, "#, true),
+        (r#""position_tolerance": null, "partial": true, "#, true),
+        (r#""position_tolerance": 1, "partial": true, "#, true),
+        (r#""position_tolerance": -0.0, "partial": true, "#, true),
+        (r#""position_tolerance": 1.0000001, "partial": true, "#, false),
+        (r#""position_tolerance": -1e-9, "partial": true, "#, false),
+        (r#""position_tolerance": 1e999, "partial": true, "#, false),
+        (r#""position_tolerance": NaN, "partial": true, "#, false),
+        (r#""position_tolerance": 0, "partial": 1, "#, false),
+        (r#""partial": true, "partial": true, "#, false),
+        (r#""partial": false, "#, false),
+        (r#""partial": null, "#, false),
+        ("", false),
+    ] {
+        let body = format!(r#"{{{terms}"plan": {{"relocations": []}}, "scene": {SOUND}}}"#);
+        let (quick, walked) = (statement::sound(body.as_bytes(), &limits), statement::walked(body.as_bytes(), &limits));
+        assert_eq!((quick.is_some(), walked.is_ok()), (sound, sound), "{terms}");
+        agree(quick, walked, &body);
+    }
+}
+
 /// Else all would be read the long way, and no test would tell.
 #[test]
 fn valid_bodies_are_read_into_types_directly() {
