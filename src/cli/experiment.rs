@@ -17,6 +17,20 @@ use singulate_planner::plan::PlanError;
 /// The most episodes in a column: the seeds of the next column begin after them.
 const MAX_EPISODES: u64 = 1_000_000;
 
+/// How to run Table III.
+const TABLE3: &str = "\
+Table III carries plans out in physics. This program does not do that. A client like any other does: it
+asks the service for plans and has a simulated robot carry them out. It needs Python 3.11 and is called in
+the project's folder:
+
+  client-examples/robot-cell/run table3        the table, by our methods and by the paper's
+  client-examples/robot-cell/run relocations   what goes wrong where the robot makes no error
+  client-examples/robot-cell/run noise         how large the camera's errors may be
+  client-examples/robot-cell/run film          one episode as a moving picture
+
+client-examples/robot-cell/README.md explains these commands, docs/RESULTS.md has the figures.
+";
+
 /// The arguments of `experiment`.
 #[derive(Debug, Args)]
 pub(super) struct Experiment {
@@ -41,6 +55,8 @@ enum PaperTable {
         #[command(flatten)]
         arguments: TableArguments,
     },
+    /// Table III: says how to carry plans out in physics, which is another program's work
+    Table3,
 }
 
 #[derive(Debug, Args)]
@@ -64,14 +80,10 @@ struct TableArguments {
 
 impl Experiment {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let mut progress = Progress::start();
-        let told = |done: usize, total: usize| progress.tell(done, total);
         match self.table {
             PaperTable::Table1 { arguments, base_episodes } => {
                 let settings = arguments.settings(base_episodes)?;
-                let columns = table1(&settings, told);
-                progress.end();
-                let columns = columns.map_err(|error| failed(&error))?;
+                let columns = measured(|told| table1(&settings, told))?;
                 match arguments.format {
                     Format::Json => terminal::print_json(&Table1Body::new(&settings, &columns)),
                     Format::Text => terminal::print(&results::table1(&settings, &columns)),
@@ -79,16 +91,23 @@ impl Experiment {
             }
             PaperTable::Table2 { arguments } => {
                 let settings = arguments.settings(Some(0))?;
-                let columns = table2(&settings, told);
-                progress.end();
-                let columns = columns.map_err(|error| failed(&error))?;
+                let columns = measured(|told| table2(&settings, told))?;
                 match arguments.format {
                     Format::Json => terminal::print_json(&Table2Body::new(&settings, &columns)),
                     Format::Text => terminal::print(&results::table2(&settings, &columns)),
                 }
             }
+            PaperTable::Table3 => terminal::print(TABLE3),
         }
     }
+}
+
+/// The columns of a table, with the progress told meanwhile.
+fn measured<T>(table: impl FnOnce(&mut dyn FnMut(usize, usize)) -> Result<T, ExperimentError>) -> Result<T, Failure> {
+    let mut progress = Progress::start();
+    let columns = table(&mut |done, total| progress.tell(done, total));
+    progress.end();
+    columns.map_err(|error| failed(&error))
 }
 
 impl TableArguments {

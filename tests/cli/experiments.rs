@@ -122,10 +122,20 @@ fn the_text_of_a_table_fits_120_columns() {
 }
 
 #[test]
+fn table_3_says_how_to_run_it() {
+    let text = ran(&["table3"]);
+    for command in ["table3", "relocations", "noise", "film"] {
+        assert!(text.contains(&format!("  client-examples/robot-cell/run {command} ")), "{text}");
+    }
+    assert!(text.contains("Python 3.11") && text.lines().all(|line| line.chars().count() <= 120), "{text}");
+}
+
+#[test]
 fn a_table_or_a_count_that_is_none_is_refused() {
     for arguments in [
-        &["table3"][..],
+        &["table4"][..],
         &[],
+        &["table3", "--episodes", "2"],
         &["table1", "--episodes", "0"],
         &["table1", "--jobs", "0"],
         &["table1", "--time-limit-ms", "0"],
