@@ -1,10 +1,15 @@
 //! Writes `docs/RESULTS.md` and its pictures. `tests/results.rs` fails where they would change.
 
 mod markdown;
+mod noise;
+mod noise_page;
+mod noise_plot;
 mod page;
 mod peers;
 mod peers_page;
 mod plots;
+mod robot;
+mod robot_page;
 mod table_plots;
 mod tables;
 mod tables_page;

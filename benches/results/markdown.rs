@@ -1,5 +1,7 @@
 //! Tables, text and numbers as the page shows them.
 
+use singulate::experiments::ConfidenceInterval;
+
 /// How wide a line may be. Headings, tables and pictures are as wide as they are.
 const WIDTH: usize = 120;
 
@@ -60,9 +62,15 @@ pub(crate) fn digits(value: f64) -> String {
         _ => 4,
     };
     let text = format!("{value:.places$}");
-    if places > 0 {
-        return text;
-    }
+    if places > 0 { text } else { with_commas(&text) }
+}
+
+/// A count; from 1,000 on with commas.
+pub(crate) fn count(count: u32) -> String {
+    with_commas(&count.to_string())
+}
+
+fn with_commas(text: &str) -> String {
     let digit = |(at, digit): (usize, char)| {
         let comma = at > 0 && (text.len() - at).is_multiple_of(3);
         comma.then_some(',').into_iter().chain([digit])
@@ -79,6 +87,20 @@ pub(crate) fn time(seconds: f64) -> String {
     }
 }
 
+/// A length in the unit that suits it.
+pub(crate) fn length(metres: f64) -> String {
+    match metres {
+        m if m >= 0.9995e-3 => format!("{} mm", digits(m * 1e3)),
+        m if m > 0.0 => format!("{} µm", digits(m * 1e6)),
+        _ => "0".to_owned(),
+    }
+}
+
+/// A length that somebody chose, in millimetres with no more digits than it has.
+pub(crate) fn millimetres(metres: f64) -> String {
+    format!("{} mm", (metres * 1e6).round() / 1e3)
+}
+
 /// A rate from 0 to 1.
 pub(crate) fn percent(rate: f64) -> String {
     let percent = rate * 100.0;
@@ -88,4 +110,28 @@ pub(crate) fn percent(rate: f64) -> String {
 /// Or a dash where there is nothing.
 pub(crate) fn or_dash<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
     value.map_or_else(|| "–".to_owned(), show)
+}
+
+/// A rate with the ends of its interval in whole percent.
+pub(crate) fn interval(rate: Option<f64>, [low, high]: [f64; 2]) -> String {
+    let whole = |rate: f64| format!("{:.0}", rate * 100.0);
+    or_dash(rate, |rate| format!("{} ({} to {})", percent(rate), whole(low), whole(high)))
+}
+
+/// A rate with its 95 % interval, of counts.
+pub(crate) fn share(part: u32, whole: u32) -> String {
+    let ConfidenceInterval { low, high } = ConfidenceInterval::wilson(part as usize, whole as usize);
+    interval(ratio(part, whole), [low, high])
+}
+
+/// A part of a whole; `None` of nothing.
+pub(crate) fn ratio(part: u32, whole: u32) -> Option<f64> {
+    (whole > 0).then(|| f64::from(part) / f64::from(whole))
+}
+
+/// Words with commas, and an "and" before the last.
+pub(crate) fn listed(words: &[String]) -> String {
+    words.split_last().map_or_else(String::new, |(last, others)| {
+        if others.is_empty() { last.clone() } else { format!("{} and {last}", others.join(", ")) }
+    })
 }

@@ -7,24 +7,32 @@ use serde::de::DeserializeOwned;
 
 use crate::markdown::{self, wrapped};
 use crate::peers::Peers;
+use crate::robot::Robot;
 use crate::tables::{Table1, Table2};
-use crate::{peers_page, plots, table_plots, tables_page};
+use crate::{noise_page, noise_plot, peers_page, plots, robot_page, table_plots, tables_page};
 
 const HEAD: &str = "# Results\n\n\
     `cargo bench --bench results` writes this page and its pictures from the files in [`results/`](results/): every \
     figure here comes from them. They were measured on a shared machine with 2 cores. Figures that are compared with each \
-    other come from the same run, except for the paper's own.\n\n";
+    other come from the same run, except for the paper's own. Robots and their world are simulated: no figure here is from a real \
+    one.\n\n";
 
 /// Every file that is made, with its path below the crate's root and its text.
 pub(crate) fn files() -> Vec<(&'static str, String)> {
     let (table1, table2, peers): (Table1, Table2, Peers) =
         (read("table1.json"), read("table2.json"), read("peers.json"));
+    let robot = robot();
     let sections = [
-        written_by(&table1, &table2),
+        written_by(&table1, &table2, &robot),
         peers_page::section(&peers),
         tables_page::table1(&table1),
         tables_page::table2(&table2),
+        robot_page::table3(&robot.table3),
         tables_page::apart(&table1, &table2),
+        robot_page::relocations(&robot.relocations, &robot.tolerance),
+        noise_page::noise(&robot.noise),
+        noise_page::controller(&robot.controller),
+        robot_page::hand(&robot.hand),
     ];
     let drawn = "finite figures";
     let text = sections.join("\n");
@@ -33,18 +41,34 @@ pub(crate) fn files() -> Vec<(&'static str, String)> {
         ("docs/results/peers.svg", plots::peers(&peers).expect(drawn)),
         ("docs/results/deadlocks.svg", table_plots::deadlocks(&table1).expect(drawn)),
         ("docs/results/times.svg", table_plots::times(&table1).expect(drawn)),
+        ("docs/results/noise.svg", noise_plot::success(&robot.noise).expect(drawn)),
     ]
 }
 
+fn robot() -> Robot {
+    Robot {
+        table3: read("table3.json"),
+        relocations: read("relocations.json"),
+        tolerance: read("tolerance.json"),
+        noise: read("noise.json"),
+        controller: read("controller.json"),
+        hand: read("hand.json"),
+    }
+}
+
 /// The files, each with the command that writes it.
-fn written_by(table1: &Table1, table2: &Table2) -> String {
+fn written_by(table1: &Table1, table2: &Table2, robot: &Robot) -> String {
     let code = |text: &str| format!("`{text}`");
-    markdown::table(&[
+    let mut rows = vec![
         markdown::row(["file", "written by"]),
         markdown::row(["`table1.json`", &code(&table1.command())]),
         markdown::row(["`table2.json`", &code(&table2.command())]),
         markdown::row(["`peers.json`", "`benches/peers/run --out docs/results/peers.json`"]),
-    ])
+    ];
+    rows.extend(robot.commands().map(|(name, command)| {
+        markdown::row([&code(&format!("{name}.json")), &code(&format!("{command} --out docs/results/{name}.json"))])
+    }));
+    markdown::table(&rows)
 }
 
 fn read<T: DeserializeOwned>(name: &str) -> T {

@@ -1,8 +1,6 @@
 //! The paper's tables beside ours.
 
-use singulate::experiments::ConfidenceInterval;
-
-use crate::markdown::{digits, or_dash, percent, row, table, time};
+use crate::markdown::{digits, interval, listed, or_dash, percent, row, share, table, time};
 use crate::tables::{Column1, Method, Plans, Table1, Table2};
 
 const SECTOR: &str = "sector";
@@ -66,11 +64,6 @@ fn deadlocks(figures: &Table1) -> Vec<Vec<String>> {
         ]);
     }
     rows
-}
-
-fn interval(rate: Option<f64>, [low, high]: [f64; 2]) -> String {
-    let whole = |rate: f64| format!("{:.0}", rate * 100.0);
-    or_dash(rate, |rate| format!("{} ({} to {})", percent(rate), whole(low), whole(high)))
 }
 
 /// Which columns differ from the paper's, and in which the swept finger has more than half of the deadlocks.
@@ -182,14 +175,15 @@ pub(crate) fn table2(figures: &Table2) -> String {
     let mut rows = vec![row(head)];
     for column in &figures.columns {
         let (n, paper) = (column.objects.to_string(), &column.paper);
-        let episodes = f64::from(paper.episodes);
-        let success = share((paper.success_rate * episodes).round(), episodes);
+        // A count of episodes.
+        let successes = (paper.success_rate * f64::from(paper.episodes)).round() as u32;
+        let success = share(successes, paper.episodes);
         rows.push(row([&n, "the paper", &success, "–", "–", &time(paper.reposition_s_mean), "–", "–"]));
         for ours in &column.placements {
             let label = if ours.placement == "raster" { "its method, in our code" } else { "border curves (ours)" };
             let [no_space, late, faulty, blocked] =
                 [ours.no_space, ours.late, ours.faulty, ours.release_blocked].map(|count| count.to_string());
-            let success = share(f64::from(ours.successes), f64::from(ours.episodes));
+            let success = share(ours.successes, ours.episodes);
             let mean = or_dash(ours.reposition_s_mean, time);
             rows.push(row(["", label, &success, &no_space, &late, &mean, &faulty, &blocked]));
         }
@@ -208,19 +202,6 @@ pub(crate) fn table2(figures: &Table2) -> String {
         listed(&moved),
         table(&rows),
     )
-}
-
-/// A rate with its interval.
-fn share(part: f64, whole: f64) -> String {
-    // Counts of episodes.
-    let ConfidenceInterval { low, high } = ConfidenceInterval::wilson(part as usize, whole as usize);
-    interval((whole > 0.0).then(|| part / whole), [low, high])
-}
-
-fn listed(words: &[String]) -> String {
-    words.split_last().map_or_else(String::new, |(last, others)| {
-        if others.is_empty() { last.clone() } else { format!("{} and {last}", others.join(", ")) }
-    })
 }
 
 /// What no run can settle.

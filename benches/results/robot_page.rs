@@ -1,0 +1,208 @@
+//! Plans that a robot carries out on exact data, in words and tables.
+
+use std::collections::BTreeMap;
+
+use crate::markdown::{count, length, millimetres, or_dash, percent, row, share, table, time};
+use crate::robot::{Apart, Column3, Hand, Relocations, Table3, Tallied, Tally, Tolerance};
+
+/// The ends that have a column, and that of a success.
+const NAMED_ENDS: [&str; 4] = ["in_hand", "out_of_reach", "no_path", "no_space"];
+
+/// The section of Table III.
+pub(crate) fn table3(figures: &Table3) -> String {
+    format!(
+        "## The paper's Table III\n\n\
+         `client-examples/robot-cell/run table3`: a client of the service carries plans out in MuJoCo {}, {} episodes for \
+         each N and each set of methods. {} Scenes and targets are those of Table I. A scene that the methods call a \
+         deadlock is passed over, so each set has scenes of its own. The paper's methods in our code are the sector model, \
+         LOBS and the raster. Their plans are carried out even where our checker finds a fault in them.\n\n\
+         Success is a target in the hand, with nothing hit by hand or arm, and nothing dropped. A contact that is too light \
+         to move what it meets is a touch and no hit. An episode is clean if it is a success without any contact, touches \
+         and those of the held dish included, and if no other dish is moved by more than 1 mm. Rates are over the judged \
+         episodes, with their 95 % intervals (Wilson). Not judged, and counted apart, are episodes in which something is out of \
+         the arm's reach, and episodes that end without a plan. No path is a failure: the arm reaches both ends of a way, but \
+         does not find it.\n\n\
+         The controller plans anew after each step. Planning time is that of all calls of an episode, as the client waits \
+         for them; beside it is what the service counts itself. Execution time is simulated. All three are means over all \
+         episodes, those that ended early included.\n\n{}\n\
+         Collisions count steps, by phase and by what met something. Disturbances are dishes moved by more than 1 mm that \
+         the step was not about.\n\n{}",
+        figures.versions.mujoco,
+        figures.episodes,
+        mechanism(figures),
+        table(&outcomes(figures)),
+        table(&troubles(figures)),
+    )
+}
+
+/// What carries the hand.
+fn mechanism(figures: &Table3) -> String {
+    if figures.mechanism == "arm" {
+        format!(
+            "The arm is a UR10e, since the paper's own, an M1013, is in no registry: execution times are another arm's. \
+             OMPL {} finds its ways.",
+            figures.versions.ompl
+        )
+    } else {
+        format!("A {} carries the hand, so execution times are not those of an arm.", figures.mechanism)
+    }
+}
+
+fn methods(column: &Column3) -> &'static str {
+    if column.method == "ours" { "our methods" } else { "the paper's methods, in our code" }
+}
+
+/// A row for what the paper prints, before the rows of each N.
+fn outcomes(figures: &Table3) -> Vec<Vec<String>> {
+    let head = ["N", "whose", "judged", "success", "clean", "planning time", "in the service", "execution time"];
+    let mut rows = vec![row(head)];
+    let mut last = None;
+    for Tallied { of, tally } in &figures.columns {
+        if last.replace(of.objects) != Some(of.objects) {
+            let [n, success] = [of.objects.to_string(), percent(of.paper.success)];
+            let [planning, execution] = [of.paper.planning_s, of.paper.execution_s].map(time);
+            rows.push(row([&n, "the paper", "–", &success, "–", &planning, "–", &execution]));
+        }
+        let mut cells = row(["", methods(of), &format!("{} of {}", tally.judged, tally.episodes)]);
+        cells.extend([tally.success, tally.clean].map(|part| share(part, tally.judged)));
+        let times = [of.planning_s_mean, of.service_s_mean, of.execution_s_mean];
+        cells.extend(times.map(|seconds| or_dash(seconds, time)));
+        rows.push(cells);
+    }
+    rows
+}
+
+/// What else became of the episodes.
+fn troubles(figures: &Table3) -> Vec<Vec<String>> {
+    let mut rows = vec![row([
+        "N",
+        "whose",
+        "deadlocks passed over",
+        "out of reach",
+        "no path",
+        "no space",
+        "other ends",
+        "collisions",
+        "disturbances",
+        "dropped",
+        "plans with faults",
+    ])];
+    for Tallied { of, tally } in &figures.columns {
+        let mut cells = row([&of.objects.to_string(), methods(of), &count(of.deadlocks_passed_over)]);
+        cells.extend(["out_of_reach", "no_path", "no_space"].map(|end| count(tally.end(end))));
+        cells.extend([other_ends(tally, &NAMED_ENDS), collisions(tally)]);
+        cells.extend([tally.disturbances, tally.drops, of.faulty_plans].map(count));
+        rows.push(cells);
+    }
+    rows
+}
+
+/// Ends but those that are named elsewhere.
+pub(crate) fn other_ends(tally: &Tally, named: &[&str]) -> String {
+    let others = tally.ends.iter().filter(|(end, _)| !named.contains(&end.as_str()));
+    listed(others.map(|(end, count)| format!("`{end}` {count}")).collect(), ", ")
+}
+
+/// Steps with a contact: `descent: finger hit 3`.
+pub(crate) fn collisions(tally: &Tally) -> String {
+    let of_phase = |(phase, kinds): (&String, &BTreeMap<String, u32>)| {
+        let kinds: Vec<String> = kinds.iter().map(|(what, count)| format!("{what} {count}")).collect();
+        format!("{phase}: {}", kinds.join(", "))
+    };
+    listed(tally.contacts.iter().map(of_phase).collect(), "; ")
+}
+
+fn listed(words: Vec<String>, between: &str) -> String {
+    if words.is_empty() { "none".to_owned() } else { words.join(between) }
+}
+
+/// The section of the relocations, with what the simulator itself may get wrong.
+pub(crate) fn relocations(figures: &Tallied<Relocations>, tolerance: &Tolerance) -> String {
+    let total = &figures.tally;
+    format!(
+        "## A thousand relocations\n\n\
+         `client-examples/robot-cell/run relocations`: a gantry carries out {} relocations in {} episodes. It reaches \
+         everything, and it is told where each dish stands, so neither an arm's reach nor a camera's error plays a part. The \
+         dishes of `paper-N` are N of the paper's, those of `mixed-N` are N of different radii. Each target is the object of \
+         its scene that needs the most relocations and can be freed. Success, clean, collisions and disturbances are as in \
+         Table III. A place's error is the distance between where a dish was to be and where it is in the end.\n\n{}\n\
+         ### The simulator's own tolerance\n\n\
+         `client-examples/robot-cell/run tolerance`: pairs that stand a few micrometres apart. What the simulator reports of \
+         them is its own error.\n\n{}\n{}",
+        count(total.relocations),
+        count(total.episodes),
+        table(&kinds(figures)),
+        table(&pairs(tolerance)),
+        threshold(tolerance),
+    )
+}
+
+fn kinds(figures: &Tallied<Relocations>) -> Vec<Vec<String>> {
+    let mut rows = vec![row([
+        "scenes",
+        "episodes",
+        "relocations",
+        "success",
+        "clean",
+        "other ends",
+        "collisions",
+        "disturbances",
+        "dropped",
+        "place error, mean",
+        "greatest",
+    ])];
+    let all = figures.of.by_kind.iter().map(|(kind, tally)| (format!("`{kind}`"), tally));
+    for (label, tally) in all.chain([("all".to_owned(), &figures.tally)]) {
+        let mut cells = vec![label];
+        cells.extend([tally.episodes, tally.relocations].map(count));
+        cells.extend([tally.success, tally.clean].map(|part| share(part, tally.judged)));
+        cells.extend([other_ends(tally, &["in_hand"]), collisions(tally)]);
+        cells.extend([tally.disturbances, tally.drops].map(count));
+        cells.extend([tally.place_error_mean, tally.place_error_max].map(|error| or_dash(error, length)));
+        rows.push(cells);
+    }
+    rows
+}
+
+fn pairs(tolerance: &Tolerance) -> Vec<Vec<String>> {
+    let head = row(["what", "pairs", "reported to overlap", "deepest"]);
+    let of = |(kind, apart): (&String, &Apart)| {
+        vec![kind.clone(), count(apart.pairs), count(apart.reported), length(apart.deepest)]
+    };
+    [head].into_iter().chain(tolerance.kinds.iter().map(of)).collect()
+}
+
+/// Whether the judge overlooks all that the simulator makes up.
+fn threshold(tolerance: &Tolerance) -> String {
+    let deepest = tolerance.kinds.values().map(|apart| apart.deepest).fold(0.0, f64::max);
+    let so_deep = if deepest < tolerance.judged_from { "none of these is" } else { "some of these are" };
+    let depth = length(tolerance.judged_from);
+    format!("All experiments count a contact only if it is deeper than {depth}; {so_deep}.\n")
+}
+
+/// The section of hands.
+pub(crate) fn hand(figures: &Hand) -> String {
+    let mut offsets: Vec<f64> = figures.rows.iter().map(|row| row.offset).collect();
+    offsets.sort_unstable_by(f64::total_cmp);
+    offsets.dedup();
+    let mut hands: Vec<&str> = figures.rows.iter().map(|row| row.hand.as_str()).collect();
+    hands.dedup();
+    let mut rows = vec![row(["hand"])];
+    rows[0].extend(offsets.iter().map(|offset| format!("seen {} off", millimetres(*offset))));
+    for hand in hands {
+        let mut cells = row([hand]);
+        cells.extend(offsets.iter().map(|offset| {
+            let found = figures.rows.iter().find(|row| row.hand == hand && row.offset == *offset);
+            or_dash(found, |found| format!("{} / {}", length(found.mean), length(found.worst)))
+        }));
+        rows.push(cells);
+    }
+    format!(
+        "## What a hand makes of an error\n\n\
+         `client-examples/robot-cell/run hand`: a dish stands beside where it was seen, in a random direction. A gantry \
+         relocates it. The table has the distance between the dish and its new place, mean / greatest of {} grasps. Two jaws \
+         push a dish along one line only, three pads or more push it towards the middle.\n\n{}",
+        figures.grasps,
+        table(&rows),
+    )
+}
