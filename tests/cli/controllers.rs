@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::{answered, run, run_with_input};
+use crate::{answered, file, run, run_with_input};
 
 const PAGE: &str = include_str!("../../docs/robot-controllers.md");
 
@@ -82,6 +82,19 @@ fn the_margins_are_the_sums_and_every_step_keeps_them() {
     }
 }
 
+/// What the camera sees after so many moves, of which `step` is the last: the object near where it was put, and everything a
+/// little elsewhere.
+fn see(scene: &mut Value, step: &Value, moves: usize) {
+    for (n, object) in scene["objects"].as_array_mut().unwrap().iter_mut().enumerate() {
+        let moved = object["id"] == step["object"];
+        for axis in ["x", "y"] {
+            let was = if moved { &step["to"][axis] } else { &object[axis] }.as_f64().unwrap();
+            let drift = if (n + moves).is_multiple_of(2) { 0.0015 } else { -0.0015 };
+            object[axis] = json!(was + drift);
+        }
+    }
+}
+
 #[test]
 fn one_move_at_a_time_comes_to_an_end_though_each_is_a_little_off() {
     let mut scene = scene();
@@ -93,19 +106,30 @@ fn one_move_at_a_time_comes_to_an_end_though_each_is_a_little_off() {
             break;
         }
         assert_eq!(answer["verdict"], "relocate");
-        let step = &answer["relocations"][0];
-        let objects = scene["objects"].as_array_mut().unwrap();
-        // What the camera sees next: the object near where it was put, and everything a little elsewhere.
-        for (n, object) in objects.iter_mut().enumerate() {
-            let moved = object["id"] == step["object"];
-            for axis in ["x", "y"] {
-                let was = if moved { &step["to"][axis] } else { &object[axis] }.as_f64().unwrap();
-                let drift = if (n + costs.len()).is_multiple_of(2) { 0.0015 } else { -0.0015 };
-                object[axis] = json!(was + drift);
-            }
-        }
+        see(&mut scene, &answer["relocations"][0], costs.len());
     }
     assert_eq!(costs, [2, 1, 0]);
+}
+
+#[test]
+fn a_plan_holds_to_its_end_though_each_move_is_a_little_off() {
+    let terms: Value = serde_json::from_str(block("json verify")).unwrap();
+    let (place, robot) = (0.0015, 0.0005);
+    assert_eq!(terms, json!({"partial": true, "position_tolerance": 2.0 * place + robot}));
+    let tolerance = terms["position_tolerance"].to_string();
+    let mut scene = scene();
+    let mut plan = planned(&scene);
+    for moves in 1..=plan["relocations"].as_array().unwrap().len() {
+        let step = plan["relocations"].as_array_mut().unwrap().remove(0);
+        see(&mut scene, &step, moves);
+        let picture = file("picture.json", &scene.to_string());
+        let verify = ["verify", picture.to_str().unwrap(), "-", "--partial", "--position-tolerance", &tolerance];
+        let verified: Value = serde_json::from_str(&answered(run_with_input(&verify, &plan.to_string()))).unwrap();
+        assert_eq!(verified["replan"], false, "{verified}");
+        let exact: Value = serde_json::from_str(&answered(run_with_input(&verify[..4], &plan.to_string()))).unwrap();
+        let left = !plan["relocations"].as_array().unwrap().is_empty();
+        assert_eq!(exact["replan"], left, "without a tolerance the next step is not where it was: {exact}");
+    }
 }
 
 #[test]
