@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from faults import Canned, CutOff, Drip, Pass, Proxy, Request, Reset, Step
+from faults import VERIFY, Canned, CutOff, Drip, Pass, Proxy, Request, Reset, Step
 
 SCENES = Path(__file__).parent / "scenes"
 INVALID = SCENES / "invalid.json"
@@ -23,6 +23,7 @@ STEP = {
     "release": {"yaw": -0.0004, "slack": 0.1},
     "gap": 0.1,
 }
+PLAN_AGAIN = Canned(200, {"valid": False, "faults": [], "first_failing_step": 0, "replan": True})
 MOVE = "move plate-2 from 0.310 0.200 to 0.063 0.000, grasp at 1.250, release at 0.000\n"
 
 
@@ -76,8 +77,8 @@ def nobody() -> Iterator[str]:
 
 
 def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
-    def proxy(*steps: Step, then: Step | None = None) -> Callable[[], Proxy]:
-        return lambda: Proxy(list(steps), then or Pass(), upstream)
+    def proxy(*steps: Step, then: Step | None = None, verified: Step | None = None) -> Callable[[], Proxy]:
+        return lambda: Proxy(list(steps), then or Pass(), verified or Pass(), upstream)
 
     def scene(name: str, **settings: Any) -> Path:
         path = folder / f"{name}.json"
@@ -93,7 +94,9 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     grasp = {"yaw": 0.5, "slack": 0.1}
     free = answer("graspable", target_grasp=grasp)
 
-    yield Case("four faults", one_move, moved, 0, server=proxy(Reset(), busy, hasty, CutOff()), check=four_faults)
+    four = (Reset(), busy, hasty, CutOff())
+    yield Case("four faults", one_move, moved, 0, server=proxy(*four), check=four_faults(0))
+    yield Case("four faults of a verification", one_move, moved, 0, server=proxy(Pass(), *four), check=four_faults(1))
     yield Case("nobody there", one_move, "", 1, "gave up: ", server=nobody)
     silent = problem(503, "overloaded", "Too busy")
     yield Case("always busy", one_move, "", 1, "gave up: Too busy", proxy(then=silent), check=patiently(4, 5))
@@ -130,24 +133,35 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     yield Case("timed out, nothing known", patient, "timed out\n", 5, server=proxy(then=unknown), check=capped)
     twice = proxy(late, free)
     yield Case("in time at last", one_move, "grasp cup at 0.500\n", 0, server=twice, check=limits(None, 10_000))
-    endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=grasp))
+    endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=grasp), verified=PLAN_AGAIN)
     yield Case("a hundred rounds", one_move, 100 * MOVE, 1, server=endless, check=hundred_rounds)
+    step = answer("relocate", relocations=[STEP], target_grasp=grasp)
+    again = proxy(step, then=free, verified=PLAN_AGAIN)
+    yield Case("plan again", one_move, MOVE + "grasp cup at 0.500\n", 0, server=again, check=planned_again)
+    mute = proxy(step, verified=Canned(200, {"valid": True, "faults": []}))
+    yield Case("torn verification", one_move, MOVE, 1, server=mute, check=counted(2))
 
 
 def counted(count: int) -> Callable[[list[Request]], str | None]:
     return lambda requests: None if len(requests) == count else f"{len(requests)} requests, not {count}"
 
 
-def four_faults(requests: list[Request]) -> str | None:
-    """The four, then the two rounds of the scene; a client that is told to wait a second does."""
-    pauses = [later.at - earlier.at for earlier, later in zip(requests, requests[1:])]
-    least = (0.2, 1.0, 1.0, 0.2)
-    for number, (pause, wanted) in enumerate(zip(pauses, least), 1):
-        if pause < wanted:
-            return f"{pause:.2f} s after fault {number}, not {wanted}"
-    if any(request.body["scene_id"] != "one-move" for request in requests):
-        return "scene_id is not sent as it stands"
-    return counted(6)(requests)
+def four_faults(first: int) -> Callable[[list[Request]], str | None]:
+    """The four from this request on, besides a plan and its verification; a client that is told to wait a second does."""
+
+    def check(requests: list[Request]) -> str | None:
+        faulty = requests[first : first + 5]
+        pauses = [later.at - earlier.at for earlier, later in zip(faulty, faulty[1:])]
+        for number, (pause, wanted) in enumerate(zip(pauses, (0.2, 1.0, 1.0, 0.2)), 1):
+            if pause < wanted:
+                return f"{pause:.2f} s after fault {number}, not {wanted}"
+        if len({(request.path, str(request.body)) for request in faulty}) != 1:
+            return "it does not ask the same again"
+        if any(request.body.get("scene", request.body)["scene_id"] != "one-move" for request in requests):
+            return "scene_id is not sent as it stands"
+        return counted(6)(requests)
+
+    return check
 
 
 def patiently(waits: int, count: int) -> Callable[[list[Request]], str | None]:
@@ -172,10 +186,25 @@ def limits(first: int | None, longer: int) -> Callable[[list[Request]], str | No
     return check
 
 
+def planned_again(requests: list[Request]) -> str | None:
+    """A plan, its verification, another plan. The answer goes back as it came, without the step that was carried out."""
+    if [request.path.endswith(VERIFY) for request in requests] != [False, True, False]:
+        return f"it asked {[request.path for request in requests]}"
+    _, verification, again = (request.body for request in requests)
+    tolerance = verification.pop("position_tolerance", None)
+    if not isinstance(tolerance, float) or not 0 < tolerance < 0.1:
+        return f"position_tolerance is {tolerance}"
+    left = answer("relocate", target_grasp={"yaw": 0.5, "slack": 0.1}).body
+    if verification != {"scene": again, "plan": left, "partial": True}:
+        return f"it verified {verification}"
+    return None
+
+
 def hundred_rounds(requests: list[Request]) -> str | None:
     """Each with the scene as the last move left it."""
     for request in requests[1:]:
-        moved = next(item for item in request.body["objects"] if item["id"] == "plate-2")
+        objects = request.body.get("scene", request.body)["objects"]
+        moved = next(item for item in objects if item["id"] == "plate-2")
         if (moved["x"], moved["y"]) != (0.0627, -0.0001):
             return f"the scene was not updated: {moved}"
-    return counted(100)(requests)
+    return counted(201)(requests)

@@ -13,6 +13,7 @@ from typing import Any
 PATIENCE = 60.0
 """Seconds, long enough for any machine."""
 DRIP = 0.3
+VERIFY = "/v1/plans/verify"
 
 
 @dataclass(frozen=True)
@@ -50,16 +51,18 @@ Step = Reset | CutOff | Drip | Pass | Canned
 @dataclass(frozen=True)
 class Request:
     at: float
+    path: str
     headers: dict[str, str]
     body: Any
 
 
 class Proxy:
-    """Answers its first requests by `steps`, and all others by `then`. Each has a connection of its own."""
+    """Answers its first requests by `steps`, and all others by `then`, verifications by `verified`. Each has a connection of
+    its own."""
 
-    def __init__(self, steps: list[Step], then: Step, upstream: tuple[str, int]) -> None:
+    def __init__(self, steps: list[Step], then: Step, verified: Step, upstream: tuple[str, int]) -> None:
         self.requests: list[Request] = []
-        self._steps, self._then, self._upstream = list(steps), then, upstream
+        self._steps, self._then, self._verified, self._upstream = list(steps), then, verified, upstream
         self._lock = threading.Lock()
         proxy = self
 
@@ -91,20 +94,22 @@ class Proxy:
 
     def _serve(self, handler: socketserver.StreamRequestHandler) -> None:
         try:
-            head = handler.rfile.readline()
+            head = handler.rfile.readline().decode().split()
             headers = http.client.parse_headers(handler.rfile)
             text = handler.rfile.read(int(headers.get("content-length", 0)))
             if not head or not text:
                 return
             with self._lock:
-                step = self._steps.pop(0) if self._steps else self._then
+                otherwise = self._verified if head[1].endswith(VERIFY) else self._then
+                step = self._steps.pop(0) if self._steps else otherwise
                 lowered = {name.lower(): value for name, value in headers.items()}
-                self.requests.append(Request(time.monotonic(), lowered, json.loads(text)))
-            self._answer(handler, step, headers, text)
+                request = Request(time.monotonic(), head[1], lowered, json.loads(text))
+                self.requests.append(request)
+            self._answer(handler, step, request, text)
         except ConnectionError:
             pass  # A client may hang up at any time.
 
-    def _answer(self, handler: socketserver.StreamRequestHandler, step: Step, headers: Any, text: bytes) -> None:
+    def _answer(self, handler: socketserver.StreamRequestHandler, step: Step, request: Request, text: bytes) -> None:
         match step:
             case Reset():
                 linger = struct.pack("ii", 1, 0)
@@ -119,14 +124,14 @@ class Proxy:
                 said = json.dumps(body).encode()
                 handler.wfile.write(head_of(status, {"content-type": "application/json", **more}, len(said)) + said)
             case Pass() | CutOff():
-                status, answered, said = self._ask(headers, text)
+                status, answered, said = self._ask(request, text)
                 head = head_of(status, answered, len(said))
                 handler.wfile.write(head + (said if isinstance(step, Pass) else said[: len(said) // 2]))
 
-    def _ask(self, headers: Any, text: bytes) -> tuple[int, dict[str, str], bytes]:
+    def _ask(self, request: Request, text: bytes) -> tuple[int, dict[str, str], bytes]:
         upstream = http.client.HTTPConnection(*self._upstream, timeout=PATIENCE)
-        passed = {name: value for name in ("content-type", "authorization") if (value := headers.get(name))}
-        upstream.request("POST", "/v1/plans", text, passed)
+        passed = {name: value for name in ("content-type", "authorization") if (value := request.headers.get(name))}
+        upstream.request("POST", request.path, text, passed)
         response = upstream.getresponse()
         said = response.read()
         upstream.close()

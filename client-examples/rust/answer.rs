@@ -1,21 +1,28 @@
 //! Answers of the service, as far as this client needs them.
 
+use std::collections::VecDeque;
+
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, Error};
+use serde_json::Value;
 
 /// An answer that this client understands.
 pub(crate) enum Answer {
-    Graspable {
-        target: String,
-        yaw: f64,
-    },
-    /// The plan's first step. The others are planned again once the table is seen again.
-    Relocate(Relocation),
+    Plan(Plan),
     /// The core.
     Deadlock(Vec<String>),
     /// What would have to go.
     NoSpace(Vec<String>),
     TimedOut(Vec<String>),
+}
+
+/// What is left to do: the steps, then the grasp of the target.
+pub(crate) struct Plan {
+    steps: VecDeque<Relocation>,
+    pub(crate) target: String,
+    pub(crate) yaw: f64,
+    /// The same as the service has put it.
+    pub(crate) body: Value,
 }
 
 #[derive(Deserialize)]
@@ -63,14 +70,10 @@ struct Head {
 }
 
 #[derive(Deserialize)]
-struct Graspable {
+struct Planned {
+    relocations: VecDeque<Relocation>,
     target: String,
     target_grasp: Grasp,
-}
-
-#[derive(Deserialize)]
-struct Plan {
-    relocations: Vec<Relocation>,
 }
 
 #[derive(Deserialize)]
@@ -88,18 +91,17 @@ struct Unplanned {
     needed: Option<Vec<String>>,
 }
 
+#[derive(Deserialize)]
+struct Verification {
+    replan: bool,
+}
+
 impl Answer {
     /// Read the body. A verdict or an action that this client does not know is an error.
     pub(crate) fn read(body: &str) -> serde_json::Result<Self> {
         match part::<Head>(body)?.verdict {
-            Verdict::Graspable => {
-                let Graspable { target, target_grasp } = part(body)?;
-                Ok(Self::Graspable { target, yaw: target_grasp.yaw })
-            }
-            Verdict::Relocate => {
-                let first = part::<Plan>(body)?.relocations.into_iter().next();
-                first.map(Self::Relocate).ok_or_else(|| Error::custom("a plan without relocations"))
-            }
+            Verdict::Graspable => Plan::read(body, false).map(Self::Plan),
+            Verdict::Relocate => Plan::read(body, true).map(Self::Plan),
             Verdict::Deadlock => {
                 let lock = part::<Deadlock>(body)?.deadlock;
                 Ok(Self::Deadlock(lock.map(|lock| lock.core).unwrap_or_default()))
@@ -108,6 +110,28 @@ impl Answer {
             Verdict::TimedOut => Ok(Self::TimedOut(part::<Unplanned>(body)?.needed.unwrap_or_default())),
         }
     }
+}
+
+impl Plan {
+    fn read(body: &str, with_steps: bool) -> serde_json::Result<Self> {
+        let Planned { relocations: steps, target, target_grasp } = part(body)?;
+        if steps.is_empty() == with_steps {
+            return Err(Error::custom(format!("{} relocations do not go with the verdict", steps.len())));
+        }
+        Ok(Self { steps, target, yaw: target_grasp.yaw, body: part(body)? })
+    }
+
+    /// The next step. The plan is then what is left after it.
+    pub(crate) fn next_step(&mut self) -> Option<Relocation> {
+        let step = self.steps.pop_front()?;
+        self.body["relocations"].as_array_mut()?.remove(0);
+        Some(step)
+    }
+}
+
+/// Whether a verification asks for a new plan.
+pub(crate) fn read_replan(body: &str) -> serde_json::Result<bool> {
+    part::<Verification>(body).map(|verification| verification.replan)
 }
 
 /// The fields that this type names.

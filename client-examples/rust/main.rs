@@ -13,6 +13,8 @@ const ROUNDS: usize = 100;
 /// The service's own limits, where its operator has not changed them.
 const DEFAULT_LIMIT_MS: u64 = 1000;
 const LONGEST_LIMIT_MS: u64 = 60_000;
+/// How far beside its place an object may be seen, m: the errors of this cell's robot and camera.
+const POSITION_TOLERANCE: f64 = 0.005;
 
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> ExitCode {
@@ -48,30 +50,39 @@ async fn run(path: &str) -> Result<ExitCode, Failure> {
     free(&service, scene).await
 }
 
-/// Ask, carry out the first relocation, ask again; 0 once the target is grasped.
+/// Plan, carry out a relocation, go on with the plan if it still holds; 0 once the target is grasped.
 async fn free(service: &Service, mut scene: Value) -> Result<ExitCode, Failure> {
     let named_ms = scene.pointer("/settings/time_limit_ms").and_then(Value::as_u64);
     let limit_ms = named_ms.unwrap_or(DEFAULT_LIMIT_MS).min(LONGEST_LIMIT_MS);
+    let mut answer = planned(service, &scene, limit_ms).await?;
     for _ in 0..ROUNDS {
-        let mut answer = service.plan(&scene, limit_ms).await?;
-        if let Answer::TimedOut(_) = answer {
-            let longer_ms = limit_ms.saturating_mul(10).min(LONGEST_LIMIT_MS);
-            let mut patient = scene.clone();
-            patient["settings"]["time_limit_ms"] = longer_ms.into();
-            answer = service.plan(&patient, longer_ms).await?;
-        }
-        match answer {
-            Answer::Relocate(step) => relocate(&mut scene, &step)?,
-            Answer::Graspable { target, yaw } => {
-                println!("grasp {target} at {}", number(yaw));
-                return Ok(ExitCode::SUCCESS);
-            }
+        let mut plan = match answer {
+            Answer::Plan(plan) => plan,
             Answer::Deadlock(core) => return Ok(report("deadlock", &core, "hold each other", 3)),
             Answer::NoSpace(needed) => return Ok(report("no space", &needed, "would have to go", 4)),
             Answer::TimedOut(needed) => return Ok(report("timed out", &needed, "would have to go", 5)),
-        }
+        };
+        let Some(step) = plan.next_step() else {
+            println!("grasp {} at {}", plan.target, number(plan.yaw));
+            return Ok(ExitCode::SUCCESS);
+        };
+        relocate(&mut scene, &step)?;
+        let replan = service.replan(&scene, &plan, POSITION_TOLERANCE, limit_ms).await?;
+        answer = if replan { planned(service, &scene, limit_ms).await? } else { Answer::Plan(plan) };
     }
     Err(Failure::Other(format!("gave up: the target is not free after {ROUNDS} moves")))
+}
+
+/// What comes too late is asked for once more, with ten times the time.
+async fn planned(service: &Service, scene: &Value, limit_ms: u64) -> Result<Answer, Failure> {
+    let answer = service.plan(scene, limit_ms).await?;
+    if !matches!(answer, Answer::TimedOut(_)) {
+        return Ok(answer);
+    }
+    let longer_ms = limit_ms.saturating_mul(10).min(LONGEST_LIMIT_MS);
+    let mut patient = scene.clone();
+    patient["settings"]["time_limit_ms"] = longer_ms.into();
+    service.plan(&patient, longer_ms).await
 }
 
 /// Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that.

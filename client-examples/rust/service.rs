@@ -1,4 +1,4 @@
-//! The service as its client sees it: one question, asked again where that can help.
+//! The service as its client sees it: two questions, asked again where that can help.
 
 use core::error::Error;
 use core::time::Duration;
@@ -7,9 +7,9 @@ use reqwest::header::RETRY_AFTER;
 use reqwest::redirect::Policy;
 use reqwest::{Client, Response, StatusCode};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Plan, read_replan};
 
 const TRIES: u32 = 5;
 /// Before a lost connection is tried again; each pause is twice the last.
@@ -25,6 +25,13 @@ pub(crate) enum Failure {
     /// The key is missing, wrong, or not meant for this.
     Forbidden(String),
     Other(String),
+}
+
+/// An answer that is not understood.
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Other(format!("refused: {error}"))
+    }
 }
 
 #[derive(Deserialize)]
@@ -61,14 +68,30 @@ impl Service {
         // The key is for this address alone.
         let client =
             Client::builder().redirect(Policy::none()).build().map_err(|error| Failure::Other(innermost(&error)))?;
-        Ok(Self { client, url: format!("{}/v1/plans", url.trim_end_matches('/')), key })
+        Ok(Self { client, url: url.trim_end_matches('/').to_owned(), key })
     }
 
-    /// Ask until there is an answer. Planning changes nothing on the server, so asking again is safe.
     pub(crate) async fn plan(&self, scene: &Value, limit_ms: u64) -> Result<Answer, Failure> {
+        Ok(Answer::read(&self.ask("/v1/plans", scene, limit_ms).await?)?)
+    }
+
+    /// Whether what is left of a plan can't be carried out any more on the table as it is now.
+    pub(crate) async fn replan(
+        &self,
+        scene: &Value,
+        left: &Plan,
+        tolerance: f64,
+        limit_ms: u64,
+    ) -> Result<bool, Failure> {
+        let body = json!({"scene": scene, "plan": left.body, "partial": true, "position_tolerance": tolerance});
+        Ok(read_replan(&self.ask("/v1/plans/verify", &body, limit_ms).await?)?)
+    }
+
+    /// Ask until there is an answer. Neither question changes anything on the server, so asking again is safe.
+    async fn ask(&self, path: &str, body: &Value, limit_ms: u64) -> Result<String, Failure> {
         let limit = Duration::from_millis(limit_ms) + BEYOND_THE_TIME_LIMIT;
         for tried in 1.. {
-            match self.once(scene, limit, FIRST_PAUSE * 2_u32.pow(tried - 1)).await {
+            match self.once(path, body, limit, FIRST_PAUSE * 2_u32.pow(tried - 1)).await {
                 Ok(answer) => return Ok(answer),
                 Err(Setback::ForGood(failure)) => return Err(failure),
                 Err(Setback::Again { reason, .. }) if tried == TRIES => {
@@ -83,7 +106,7 @@ impl Service {
         unreachable!("the last try has returned")
     }
 
-    async fn once(&self, scene: &Value, limit: Duration, pause: Duration) -> Result<Answer, Setback> {
+    async fn once(&self, path: &str, body: &Value, limit: Duration, pause: Duration) -> Result<String, Setback> {
         let lost = |error: reqwest::Error| {
             if error.is_builder() || is_of_certificate(&error) {
                 return Setback::ForGood(Failure::Other(innermost(&error)));
@@ -91,18 +114,19 @@ impl Service {
             let what = if error.is_timeout() { "no answer in time".to_owned() } else { innermost(&error) };
             Setback::Again { reason: format!("connection lost: {what}"), pause }
         };
-        let request = self.client.post(&self.url).header("content-type", "application/json").timeout(limit);
+        let request =
+            self.client.post(self.url.clone() + path).header("content-type", "application/json").timeout(limit);
         let request = match &self.key {
             Some(key) => request.bearer_auth(key),
             None => request,
         };
-        let response = request.body(scene.to_string()).send().await.map_err(lost)?;
+        let response = request.body(body.to_string()).send().await.map_err(lost)?;
         let (status, wait) = (response.status(), retry_after(&response));
-        let body = response.text().await.map_err(lost)?;
+        let answer = response.text().await.map_err(lost)?;
         if status == StatusCode::OK {
-            return Answer::read(&body).map_err(|error| Setback::ForGood(Failure::Other(format!("refused: {error}"))));
+            return Ok(answer);
         }
-        let problem: Problem = serde_json::from_str(&body).unwrap_or_default();
+        let problem: Problem = serde_json::from_str(&answer).unwrap_or_default();
         let title = problem.title.unwrap_or_else(|| format!("status {status}"));
         Err(match status {
             StatusCode::REQUEST_TIMEOUT

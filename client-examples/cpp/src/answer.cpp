@@ -28,22 +28,22 @@ Relocation read_relocation(const json& relocation) {
           read_yaw(relocation.at("grasp")), read_yaw(relocation.at("release"))};
 }
 
-/// Reads all of them, so that a plan with an unknown action is refused before its first step.
-Relocate read_relocations(const json& relocations) {
-  std::vector<Relocation> read;
-  for (const json& relocation : relocations) {
-    read.push_back(read_relocation(relocation));
+/// Reads all steps, so that a plan with an unknown action is refused before its first one.
+Plan read_plan(const json& document, bool with_steps) {
+  Plan plan{{}, document.at("target").get<std::string>(), read_yaw(document.at("target_grasp")), document};
+  for (const json& relocation : document.at("relocations")) {
+    plan.steps.push_back(read_relocation(relocation));
   }
-  return {read.at(0)};
+  if (plan.steps.empty() == with_steps) {
+    throw Failure(Exit::refused, "the answer is not understood: the relocations do not go with the verdict");
+  }
+  return plan;
 }
 
 Answer read_verdict(const json& document) {
   const auto verdict = document.at("verdict").get<std::string>();
-  if (verdict == "graspable") {
-    return Graspable{document.at("target").get<std::string>(), read_yaw(document.at("target_grasp"))};
-  }
-  if (verdict == "relocate") {
-    return read_relocations(document.at("relocations"));
+  if (verdict == "graspable" || verdict == "relocate") {
+    return read_plan(document, verdict == "relocate");
   }
   if (verdict == "deadlock") {
     const json& deadlock = document.at("deadlock");
@@ -58,16 +58,29 @@ Answer read_verdict(const json& document) {
   throw Failure(Exit::refused, "unknown verdict: " + verdict);
 }
 
-}  // namespace
-
-Answer read_answer(const json& document) {
+/// Refuses what lacks a part.
+template <typename Read>
+auto understood(Read read, const json& document) {
   try {
-    return read_verdict(document);
+    return read(document);
   } catch (const json::exception& fault) {
     throw Failure(Exit::refused, std::string("the answer is not understood: ") + fault.what());
-  } catch (const std::out_of_range&) {
-    throw Failure(Exit::refused, "the answer is not understood: relocate without a relocation");
   }
+}
+
+}  // namespace
+
+Plan Plan::rest() const {
+  Plan rest = *this;
+  rest.steps.erase(rest.steps.begin());
+  rest.body.at("relocations").erase(0);
+  return rest;
+}
+
+Answer read_answer(const json& document) { return understood(read_verdict, document); }
+
+bool read_replan(const json& document) {
+  return understood([](const json& verification) { return verification.at("replan").get<bool>(); }, document);
 }
 
 }  // namespace singulate

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,15 +20,15 @@ struct Relocation {
   double release_yaw = 0;
 };
 
-/// The target can be grasped as the table stands.
-struct Graspable {
+/// What is left to do: the steps, then the grasp of the target.
+struct Plan {
+  std::vector<Relocation> steps;
   std::string target;
   double yaw = 0;
-};
+  nlohmann::json body;  // the same as the service has put it
 
-/// The first of the relocations that free the target. The others are asked for again once this one is done.
-struct Relocate {
-  Relocation first;
+  /// What is left after the first step.
+  [[nodiscard]] Plan rest() const;
 };
 
 /// Nothing ever frees the target: these hold each other.
@@ -46,9 +46,12 @@ struct TimedOut {
   std::vector<std::string> needed;
 };
 
-using Answer = std::variant<Graspable, Relocate, Deadlock, NoSpace, TimedOut>;
+using Answer = std::variant<Plan, Deadlock, NoSpace, TimedOut>;
 
 /// Refuses what it does not understand, above all verdicts and actions of later versions.
 [[nodiscard]] Answer read_answer(const nlohmann::json& document);
+
+/// Whether a verification asks for a new plan.
+[[nodiscard]] bool read_replan(const nlohmann::json& document);
 
 }  // namespace singulate

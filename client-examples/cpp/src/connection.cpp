@@ -40,7 +40,7 @@ Library::Library() {
   }
 }
 
-Connection::Connection(const std::string& url, const std::string& key) : handle_(curl_easy_init()) {
+Connection::Connection(const std::string& url, const std::string& key) : url_(url), handle_(curl_easy_init()) {
   if (!handle_) {
     throw Failure(Exit::refused, "libcurl made no handle");
   }
@@ -49,7 +49,6 @@ Connection::Connection(const std::string& url, const std::string& key) : handle_
   if (!key.empty()) {
     add_header("Authorization: Bearer " + key);
   }
-  set(handle_.get(), CURLOPT_URL, url.c_str());
   set(handle_.get(), CURLOPT_HTTPHEADER, headers_.get());
   set(handle_.get(), CURLOPT_WRITEFUNCTION, &collect);
   set(handle_.get(), CURLOPT_NOSIGNAL, 1L);
@@ -71,8 +70,10 @@ void Connection::add_header(const std::string& line) {
   headers_.reset(longer);
 }
 
-std::variant<Reply, Lost> Connection::post(const std::string& body, std::chrono::milliseconds time_limit) {
+std::variant<Reply, Lost> Connection::post(const std::string& path, const std::string& body,
+                                           std::chrono::milliseconds time_limit) {
   Reply reply;
+  set(handle_.get(), CURLOPT_URL, (url_ + path).c_str());
   set(handle_.get(), CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
   set(handle_.get(), CURLOPT_POSTFIELDS, body.c_str());
   set(handle_.get(), CURLOPT_TIMEOUT_MS, static_cast<long>(time_limit.count()));

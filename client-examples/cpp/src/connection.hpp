@@ -29,12 +29,13 @@ struct Lost {
   std::string reason;
 };
 
-/// Posts JSON to one address; the connection stays open from one call to the next.
+/// Posts JSON to one service; the connection stays open from one call to the next.
 class Connection {
  public:
   /// An empty key is not sent.
   Connection(const std::string& url, const std::string& key);
-  [[nodiscard]] std::variant<Reply, Lost> post(const std::string& body, std::chrono::milliseconds time_limit);
+  [[nodiscard]] std::variant<Reply, Lost> post(const std::string& path, const std::string& body,
+                                               std::chrono::milliseconds time_limit);
 
  private:
   struct Free {
@@ -43,6 +44,7 @@ class Connection {
   };
   void add_header(const std::string& line);
 
+  std::string url_;
   // The handle points at the list, and so goes first.
   std::unique_ptr<curl_slist, Free> headers_;
   std::unique_ptr<CURL, Free> handle_;

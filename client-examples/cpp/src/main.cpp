@@ -1,4 +1,5 @@
-// A cell controller in small: asks for a plan, does its first step, and asks again until the target can be grasped.
+// A cell controller in small: asks for a plan, does its first step, and goes on with the plan as long as it holds, until the
+// target can be grasped.
 
 #include <array>
 #include <cmath>
@@ -6,7 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <optional>
+#include <utility>
 
 #include "failure.hpp"
 #include "scene.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 // Each round moves one object; a table that needs more is not what this gripper is for.
 constexpr int most_rounds = 100;
+// How far beside its place an object may be seen, m: the errors of this cell's robot and camera.
+constexpr double position_tolerance = 0.005;
 
 std::string environment(const char* name, const char* otherwise) {
   const char* value = std::getenv(name);
@@ -48,27 +51,37 @@ void relocate(Scene& scene, const Relocation& step) {
             << ", release at " << decimals(step.release_yaw) << '\n';
 }
 
-/// What to do about each verdict. Says how the client ends, or nothing while there is more to do.
+/// What comes too late is asked for once more, with ten times the time.
+Answer planned(Service& service, const Scene& scene) {
+  Answer answer = service.plan(scene);
+  return std::holds_alternative<TimedOut>(answer) ? service.plan(scene.with_more_time()) : answer;
+}
+
+/// What to do about each verdict: the next answer to follow, or how the client ends.
 struct Follow {
+  using Next = std::variant<Answer, Exit>;
+
+  Service& service;
   Scene& scene;
 
-  std::optional<Exit> operator()(const Relocate& answer) const {
-    relocate(scene, answer.first);
-    return std::nullopt;
+  Next operator()(const Plan& plan) const {
+    if (plan.steps.empty()) {
+      std::cout << "grasp " << plan.target << " at " << decimals(plan.yaw) << '\n';
+      return Exit::graspable;
+    }
+    relocate(scene, plan.steps.front());
+    const Plan left = plan.rest();
+    return service.replan(scene, left, position_tolerance) ? planned(service, scene) : left;
   }
-  std::optional<Exit> operator()(const Graspable& answer) const {
-    std::cout << "grasp " << answer.target << " at " << decimals(answer.yaw) << '\n';
-    return Exit::graspable;
-  }
-  std::optional<Exit> operator()(const Deadlock& answer) const {
+  Next operator()(const Deadlock& answer) const {
     print_ids("deadlock", answer.core, " hold each other");
     return Exit::deadlock;
   }
-  std::optional<Exit> operator()(const NoSpace& answer) const {
+  Next operator()(const NoSpace& answer) const {
     print_ids("no space", answer.needed, " would have to go");
     return Exit::no_space;
   }
-  std::optional<Exit> operator()(const TimedOut& answer) const {
+  Next operator()(const TimedOut& answer) const {
     print_ids("timed out", answer.needed, " would have to go");
     return Exit::timed_out;
   }
@@ -78,14 +91,13 @@ Exit run(const std::string& path) {
   const Library library;
   Service service(environment("SINGULATE_URL", "http://127.0.0.1:8080"), environment("SINGULATE_KEY", ""));
   Scene scene = Scene::read(path);
+  Answer answer = planned(service, scene);
   for (int round = 0; round < most_rounds; ++round) {
-    Answer answer = service.plan(scene);
-    if (std::holds_alternative<TimedOut>(answer)) {
-      answer = service.plan(scene.with_more_time());
-    }
-    if (const auto exit = std::visit(Follow{scene}, answer)) {
+    Follow::Next next = std::visit(Follow{service, scene}, answer);
+    if (const auto* exit = std::get_if<Exit>(&next)) {
       return *exit;
     }
+    answer = std::get<Answer>(std::move(next));
   }
   throw Failure(Exit::refused, "gave up: not graspable after " + std::to_string(most_rounds) + " moves");
 }

@@ -14,7 +14,7 @@ class Scene {
   /// Any JSON will do: what makes a scene is for the service to say.
   static Scene read(const std::string& path);
 
-  [[nodiscard]] std::string body() const { return document_.dump(); }
+  [[nodiscard]] const nlohmann::json& document() const { return document_; }
   [[nodiscard]] std::chrono::milliseconds time_limit() const;
   /// The same scene with ten times the time to plan, as far as the service gives it.
   [[nodiscard]] Scene with_more_time() const;

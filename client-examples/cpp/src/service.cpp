@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// After a lost connection; planning changes nothing, so to ask again is safe. One pause less than there are tries.
+// After a lost connection; neither question changes anything, so to ask again is safe. One pause less than there are tries.
 constexpr std::array pauses{200ms, 400ms, 800ms, 1'600ms};
 // A service that wants more patience than this is down, as far as a robot is concerned.
 constexpr std::chrono::seconds longest_wait = 60s;
@@ -52,14 +52,14 @@ std::string faults(const json& problem) {
   return lines.tellp() > 0 ? lines.str() : title(problem, 422);
 }
 
-std::variant<Answer, Again> judge(const Reply& reply) {
-  const json document = json::parse(reply.body, nullptr, false);
+std::variant<json, Again> judge(const Reply& reply) {
+  json document = json::parse(reply.body, nullptr, false);
   switch (reply.status) {
     case 200:
       if (document.is_discarded()) {
         return Again{"the answer is cut off", std::nullopt};
       }
-      return read_answer(document);
+      return document;
     case 401:
     case 403:
       throw Failure(Exit::key_refused, title(document, reply.status));
@@ -76,24 +76,35 @@ std::variant<Answer, Again> judge(const Reply& reply) {
   }
 }
 
-std::variant<Answer, Again> judge(const Lost& lost) { return Again{lost.reason, std::nullopt}; }
+std::variant<json, Again> judge(const Lost& lost) { return Again{lost.reason, std::nullopt}; }
 
-std::string address(std::string url) {
+std::string without_slash(std::string url) {
   while (url.ends_with('/')) {
     url.pop_back();
   }
-  return url + "/v1/plans";
+  return url;
 }
 
 }  // namespace
 
-Service::Service(const std::string& url, const std::string& key) : connection_(address(url), key) {}
+Service::Service(const std::string& url, const std::string& key) : connection_(without_slash(url), key) {}
 
-Answer Service::plan(const Scene& scene) {
-  const std::string body = scene.body();
+Answer Service::plan(const Scene& scene) { return read_answer(ask("/v1/plans", scene.document(), scene.time_limit())); }
+
+bool Service::replan(const Scene& scene, const Plan& left, double position_tolerance) {
+  const json body{{"scene", scene.document()},
+                  {"plan", left.body},
+                  {"partial", true},
+                  {"position_tolerance", position_tolerance}};
+  return read_replan(ask("/v1/plans/verify", body, scene.time_limit()));
+}
+
+json Service::ask(const std::string& path, const json& body, milliseconds time_limit) {
+  const std::string text = body.dump();
   for (std::size_t failed = 0;; ++failed) {
-    auto result = std::visit([](const auto& each) { return judge(each); }, connection_.post(body, scene.time_limit() + transfer));
-    if (auto* answer = std::get_if<Answer>(&result)) {
+    const auto reply = connection_.post(path, text, time_limit + transfer);
+    auto result = std::visit([](const auto& each) { return judge(each); }, reply);
+    if (auto* answer = std::get_if<json>(&result)) {
       return std::move(*answer);
     }
     const auto& again = std::get<Again>(result);

@@ -1,6 +1,6 @@
 """Answers of the service, each verdict a type of its own."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 
@@ -24,16 +24,19 @@ class Relocation:
 
 
 @dataclass(frozen=True)
-class Graspable:
+class Plan:
+    """What is left to do: the steps, then the grasp of the target."""
+
+    steps: tuple[Relocation, ...]
     target: str
     yaw: float
+    body: dict[str, Any]
+    """The same as the service has put it."""
 
-
-@dataclass(frozen=True)
-class Relocate:
-    """The plan. Only its first step is followed: the others are planned again once the table is seen again."""
-
-    first: Relocation
+    def rest(self) -> "Plan":
+        """What is left after the first step."""
+        body = {**self.body, "relocations": self.body["relocations"][1:]}
+        return replace(self, steps=self.steps[1:], body=body)
 
 
 @dataclass(frozen=True)
@@ -51,23 +54,32 @@ class TimedOut:
     needed: tuple[str, ...]
 
 
-Answer = Graspable | Relocate | Deadlock | NoSpace | TimedOut
+Answer = Plan | Deadlock | NoSpace | TimedOut
 
 
 def read(body: Any) -> Answer:
     """The answer in a decoded body, or Unknown."""
     try:
         return _verdict(body)
-    except (KeyError, IndexError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise Unknown(f"the answer lacks a part or has a wrong one: {error!r}") from error
+
+
+def read_replan(body: Any) -> bool:
+    """Whether a verification asks for a new plan, or Unknown."""
+    replan = body.get("replan") if isinstance(body, dict) else None
+    if not isinstance(replan, bool):
+        raise Unknown("the verification does not say whether to plan again")
+    return replan
 
 
 def _verdict(body: Any) -> Answer:
     match body["verdict"]:
-        case "graspable":
-            return Graspable(str(body["target"]), float(body["target_grasp"]["yaw"]))
-        case "relocate":
-            return Relocate([_relocation(step) for step in body["relocations"]][0])
+        case "graspable" | "relocate" as verdict:
+            steps = tuple(_relocation(step) for step in body["relocations"])
+            if (verdict == "relocate") != bool(steps):
+                raise Unknown(f"{len(steps)} relocations with the verdict '{verdict}'")
+            return Plan(steps, str(body["target"]), float(body["target_grasp"]["yaw"]), body)
         case "deadlock":
             return Deadlock(_ids((body["deadlock"] or {}).get("core")))
         case "no_space":

@@ -1,4 +1,4 @@
-"""The service as its client sees it: one question, asked again where that can help."""
+"""The service as its client sees it: two questions, asked again where that can help."""
 
 import asyncio
 import sys
@@ -58,10 +58,19 @@ class Service:
         await self._client.aclose()
 
     async def plan(self, scene: dict[str, Any], time_limit_ms: int) -> Any:
-        """The answer's body. Planning changes nothing on the server, so asking again is safe."""
+        """The answer's body."""
+        return await self._ask("/v1/plans", scene, time_limit_ms)
+
+    async def verify(self, scene: dict[str, Any], rest: dict[str, Any], tolerance: float, time_limit_ms: int) -> Any:
+        """Whether what is left of a plan can be carried out on the table as it is now."""
+        body = {"scene": scene, "plan": rest, "partial": True, "position_tolerance": tolerance}
+        return await self._ask("/v1/plans/verify", body, time_limit_ms)
+
+    async def _ask(self, path: str, body: dict[str, Any], time_limit_ms: int) -> Any:
+        """The answer's body. Neither question changes anything on the server, so asking again is safe."""
         reason = ""
         for tried in range(1, TRIES + 1):
-            outcome = await self._try(scene, time_limit_ms / 1000 + BEYOND_THE_TIME_LIMIT, tried)
+            outcome = await self._try(path, body, time_limit_ms / 1000 + BEYOND_THE_TIME_LIMIT, tried)
             if not isinstance(outcome, Again):
                 return outcome
             reason = outcome.reason
@@ -70,10 +79,10 @@ class Service:
                 await asyncio.sleep(outcome.pause)
         raise GaveUp(reason)
 
-    async def _try(self, scene: dict[str, Any], limit: float, tried: int) -> Any:
+    async def _try(self, path: str, body: dict[str, Any], limit: float, tried: int) -> Any:
         try:
             async with asyncio.timeout(limit):
-                response = await self._client.post("/v1/plans", json=scene)
+                response = await self._client.post(path, json=body)
         except TimeoutError:
             return Again(f"no answer within {limit:g} s", _pause(tried))
         except (httpx.UnsupportedProtocol, httpx.LocalProtocolError) as error:
@@ -83,14 +92,14 @@ class Service:
             if "CERTIFICATE_VERIFY_FAILED" in str(error):
                 raise Unreachable(str(error)) from error
             return Again(f"connection lost: {error}", _pause(tried))
-        body = _decoded(response)
+        answer = _decoded(response)
         match response.status_code:
             case 200:
-                return body
+                return answer
             case 408 | 429 | 502 | 503 | 504 as status:
-                return Again(str(Refused(status, body)), _retry_after(response.headers.get("retry-after")))
+                return Again(str(Refused(status, answer)), _retry_after(response.headers.get("retry-after")))
             case status:
-                raise Refused(status, body)
+                raise Refused(status, answer)
 
 
 def _pause(tried: int) -> float:

@@ -1,5 +1,5 @@
 import { exit, Failure } from "./failure.js";
-import { fields, list, number, text } from "./json.js";
+import { boolean, fields, list, number, text, type Fields } from "./json.js";
 
 export interface Point {
   readonly x: number;
@@ -15,12 +15,19 @@ export interface Relocation {
   readonly releaseYaw: number;
 }
 
+/** What is left to do: the steps, then the grasp of the target. */
+export interface Plan {
+  readonly verdict: "graspable" | "relocate";
+  readonly steps: readonly Relocation[];
+  readonly target: string;
+  readonly yaw: number;
+  /** The same as the service has put it. */
+  readonly body: Fields;
+}
+
 /** What the service says about a scene. The word `verdict` tells which fields there are. */
 export type Answer =
-  /** The target can be grasped as the table stands. */
-  | { readonly verdict: "graspable"; readonly target: string; readonly yaw: number }
-  /** These relocations, of which there is at least one, free the target. */
-  | { readonly verdict: "relocate"; readonly relocations: readonly [Relocation, ...Relocation[]] }
+  | Plan
   /** Nothing ever frees the target: the objects of the core hold each other. */
   | { readonly verdict: "deadlock"; readonly core: readonly string[] }
   /** The needed objects would have to go, but no places for them were found. */
@@ -64,15 +71,15 @@ export function readAnswer(value: unknown): Answer {
   const verdict = text(answer["verdict"], "/verdict");
   switch (verdict) {
     case "graspable":
-      return { verdict, target: text(answer["target"], "/target"), yaw: readYaw(answer["target_grasp"], "/target_grasp") };
     case "relocate": {
-      const [first, ...later] = list(answer["relocations"], "/relocations").map((each, at) =>
+      const steps = list(answer["relocations"], "/relocations").map((each, at) =>
         readRelocation(each, `/relocations/${at}`),
       );
-      if (first === undefined) {
-        throw new Failure(exit.refused, "the answer is not understood: relocate without a relocation");
+      if (steps.length > 0 !== (verdict === "relocate")) {
+        throw new Failure(exit.refused, `the answer is not understood: ${verdict} with ${steps.length} relocations`);
       }
-      return { verdict, relocations: [first, ...later] };
+      const yaw = readYaw(answer["target_grasp"], "/target_grasp");
+      return { verdict, steps, target: text(answer["target"], "/target"), yaw, body: answer };
     }
     case "deadlock": {
       const deadlock = answer["deadlock"];
@@ -84,4 +91,15 @@ export function readAnswer(value: unknown): Answer {
     default:
       throw new Failure(exit.refused, `unknown verdict: ${verdict}`);
   }
+}
+
+/** What is left of a plan after its first step. */
+export function rest(plan: Plan): Plan {
+  const relocations = list(plan.body["relocations"], "/relocations").slice(1);
+  return { ...plan, steps: plan.steps.slice(1), body: { ...plan.body, relocations } };
+}
+
+/** Whether a verification asks for a new plan. */
+export function readReplan(value: unknown): boolean {
+  return boolean(fields(value, "the body")["replan"], "/replan");
 }

@@ -27,3 +27,7 @@ export function text(value: unknown, place: string): string {
 export function number(value: unknown, place: string): number {
   return typeof value === "number" ? value : refuse("a number", place);
 }
+
+export function boolean(value: unknown, place: string): boolean {
+  return typeof value === "boolean" ? value : refuse("a boolean", place);
+}

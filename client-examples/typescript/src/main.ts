@@ -1,12 +1,15 @@
-// A cell controller in small: asks for a plan, does its first step, and asks again until the target can be grasped.
+// A cell controller in small: asks for a plan, does its first step, and goes on with the plan as long as it holds, until the
+// target can be grasped.
 
-import type { Relocation } from "./answer.js";
+import { rest, type Answer, type Relocation } from "./answer.js";
 import { exit, Failure, type Exit } from "./failure.js";
 import { Scene } from "./scene.js";
 import { Service } from "./service.js";
 
 // Each round moves one object; a table that needs more is not what this gripper is for.
 const mostRounds = 100;
+// How far beside its place an object may be seen, m: the errors of this cell's robot and camera.
+const positionTolerance = 0.005;
 
 /** Three decimals as C prints them: what lies half way between two goes to the even one, and nothing is -0.000. */
 function decimals(value: number): string {
@@ -28,24 +31,33 @@ function relocate(scene: Scene, { object, from, to, graspYaw, releaseYaw }: Relo
   return moved;
 }
 
+/** What comes too late is asked for once more, with ten times the time. */
+async function planned(service: Service, scene: Scene): Promise<Answer> {
+  const answer = await service.plan(scene);
+  return answer.verdict === "timed_out" ? service.plan(scene.withMoreTime()) : answer;
+}
+
 async function run(path: string): Promise<Exit> {
   const service = new Service(
     process.env["SINGULATE_URL"] ?? "http://127.0.0.1:8080",
     process.env["SINGULATE_KEY"] ?? "",
   );
   let scene = Scene.read(path);
+  let answer = await planned(service, scene);
   for (let round = 0; round < mostRounds; round++) {
-    let answer = await service.plan(scene);
-    if (answer.verdict === "timed_out") {
-      answer = await service.plan(scene.withMoreTime());
-    }
     switch (answer.verdict) {
       case "relocate":
-        scene = relocate(scene, answer.relocations[0]);
+      case "graspable": {
+        const [step] = answer.steps;
+        if (step === undefined) {
+          console.log(`grasp ${answer.target} at ${decimals(answer.yaw)}`);
+          return exit.graspable;
+        }
+        scene = relocate(scene, step);
+        const left = rest(answer);
+        answer = (await service.replan(scene, left, positionTolerance)) ? await planned(service, scene) : left;
         break;
-      case "graspable":
-        console.log(`grasp ${answer.target} at ${decimals(answer.yaw)}`);
-        return exit.graspable;
+      }
       case "deadlock":
         console.log(withIds("deadlock", answer.core, "hold each other"));
         return exit.deadlock;

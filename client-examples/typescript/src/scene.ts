@@ -13,7 +13,7 @@ const longestTimeLimitMs = 60_000;
  * to say.
  */
 export class Scene {
-  private constructor(private readonly document: unknown) {}
+  private constructor(readonly document: unknown) {}
 
   static read(path: string): Scene {
     try {
@@ -21,10 +21,6 @@ export class Scene {
     } catch (error) {
       throw new Failure(exit.refused, `${path} can't be read: ${String(error)}`);
     }
-  }
-
-  get body(): string {
-    return JSON.stringify(this.document);
   }
 
   get timeLimitMs(): number {

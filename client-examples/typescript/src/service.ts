@@ -1,11 +1,11 @@
 import { setTimeout as sleep } from "node:timers/promises";
 
-import { readAnswer, type Answer } from "./answer.js";
+import { readAnswer, readReplan, type Answer, type Plan } from "./answer.js";
 import { exit, Failure } from "./failure.js";
 import { isFields } from "./json.js";
 import type { Scene } from "./scene.js";
 
-// After a lost connection; planning changes nothing, so to ask again is safe. One pause less than there are tries.
+// After a lost connection; neither question changes anything, so to ask again is safe. One pause less than there are tries.
 const pausesMs = [200, 400, 800, 1_600];
 // A service that wants more patience than this is down, as far as a robot is concerned.
 const longestWaitSeconds = 60;
@@ -18,7 +18,7 @@ interface Again {
   readonly waitMs?: number;
 }
 
-type Outcome = { readonly answer: Answer } | { readonly again: Again };
+type Outcome = { readonly answer: unknown } | { readonly again: Again };
 
 /** Nothing where it is not JSON. */
 function parse(body: string): unknown {
@@ -54,7 +54,7 @@ function judge(response: Response, body: string): Outcome {
   const document = parse(body);
   switch (response.status) {
     case 200:
-      return document === undefined ? { again: { reason: "the answer is cut off" } } : { answer: readAnswer(document) };
+      return document === undefined ? { again: { reason: "the answer is cut off" } } : { answer: document };
     case 401:
     case 403:
       throw new Failure(exit.keyRefused, title(document, response.status));
@@ -95,7 +95,7 @@ export class Service {
     if (!/^https?:$/.test(new URL(url).protocol)) {
       throw new Failure(exit.refused, `SINGULATE_URL is no address of HTTP: ${url}`);
     }
-    this.address = `${url.replace(/\/+$/, "")}/v1/plans`;
+    this.address = url.replace(/\/+$/, "");
     this.headers = {
       accept: "application/json",
       "content-type": "application/json",
@@ -104,8 +104,18 @@ export class Service {
   }
 
   async plan(scene: Scene): Promise<Answer> {
+    return readAnswer(await this.ask("/v1/plans", scene.document, scene.timeLimitMs));
+  }
+
+  /** Whether what is left of a plan can't be carried out any more on the table as it is now. */
+  async replan(scene: Scene, left: Plan, tolerance: number): Promise<boolean> {
+    const body = { scene: scene.document, plan: left.body, partial: true, position_tolerance: tolerance };
+    return readReplan(await this.ask("/v1/plans/verify", body, scene.timeLimitMs));
+  }
+
+  private async ask(path: string, body: unknown, timeLimitMs: number): Promise<unknown> {
     for (let failed = 0; ; failed++) {
-      const outcome = await this.ask(scene);
+      const outcome = await this.once(path, JSON.stringify(body), timeLimitMs);
       if ("answer" in outcome) {
         return outcome.answer;
       }
@@ -119,22 +129,22 @@ export class Service {
     }
   }
 
-  private async ask(scene: Scene): Promise<Outcome> {
+  private async once(path: string, body: string, timeLimitMs: number): Promise<Outcome> {
     let response: Response;
-    let body: string;
+    let answer: string;
     try {
       // The signal covers the body too, which may break off after its head has come.
-      const signal = AbortSignal.timeout(scene.timeLimitMs + transferMs);
+      const signal = AbortSignal.timeout(timeLimitMs + transferMs);
       const { headers } = this;
       // A redirect is an answer like others: the key is for this address alone.
-      response = await fetch(this.address, { method: "POST", headers, body: scene.body, signal, redirect: "manual" });
-      body = await response.text();
+      response = await fetch(this.address + path, { method: "POST", headers, body, signal, redirect: "manual" });
+      answer = await response.text();
     } catch (error) {
       if (isOfCertificate(error)) {
         throw new Failure(exit.refused, reason(error));
       }
       return { again: { reason: reason(error) } };
     }
-    return judge(response, body);
+    return judge(response, answer);
   }
 }
