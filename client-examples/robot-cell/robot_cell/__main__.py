@@ -1,0 +1,68 @@
+"""`run COMMAND`: see README.md beside this package."""
+
+import argparse
+import json
+import os
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+from .experiments import controller, film, hand, noise, own_scene, relocations, table3, tolerance
+from .experiments.server import service
+
+COMMANDS = {
+    "table3": table3,
+    "relocations": relocations,
+    "noise": noise,
+    "controller": controller,
+    "hand": hand,
+    "tolerance": tolerance,
+    "scene": own_scene,
+    "film": film,
+}
+
+
+def main() -> int:
+    options = arguments()
+    command = COMMANDS[options.command]
+    try:
+        with service() as url:
+            figures = {"command": called(options), "versions": versions(), **command.measure(options, url)}
+    except (FileNotFoundError, RuntimeError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(command.text(figures))
+    if options.out:
+        options.out.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+    return 0
+
+
+def called(options: argparse.Namespace) -> str:
+    """The command, without what does not change the figures."""
+    words = [options.command]
+    for name, value in vars(options).items():
+        if name not in ("command", "jobs", "out", "frames", "picture") and value is not None:
+            listed = value if isinstance(value, list) else [value]
+            words += [*([] if name == "scene" else [f"--{name.replace('_', '-')}"]), *map(str, listed)]
+    return " ".join(["client-examples/robot-cell/run", *words])
+
+
+def versions() -> dict[str, str]:
+    """Of the packages that the figures depend on."""
+    return {name: version(name) for name in ("mujoco", "ompl", "numpy")}
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="run", description="Carries out plans of singulate in physics.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, module in COMMANDS.items():
+        about = (module.__doc__ or "").strip().splitlines()[0]
+        command = commands.add_parser(name, help=about, description=about)
+        command.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: one a core)")
+        command.add_argument("--out", type=Path, help="a file for the figures as JSON")
+        module.add_arguments(command)
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Asks the service, and decides what the cell does next."""

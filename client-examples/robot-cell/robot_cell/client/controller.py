@@ -1,0 +1,179 @@
+"""The controller of a cell: look, ask, carry out one step, look again, until the target is in the hand."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..physics.camera import Camera
+from ..physics.cell import Cell, Outcome, Spot
+from ..physics.mechanism import NoPath, OutOfReach
+from .service import LONGEST_LIMIT_MS, Body, GaveUp, Refused, Service
+from ..physics.world import Scene
+
+STEPS = 50
+"""More steps than any of these plans has. A controller that needs more goes round in circles."""
+PICTURES = 5
+"""How often the camera looks again where its errors make a scene that the service refuses."""
+ROUNDS_WITHOUT_PROGRESS = 3
+DEFINITE = {"deadlock", "no_space", "timed_out"}
+ACTIONS = {"pick_place"}
+FAULTS = {
+    "grasp_blocked",
+    "release_blocked",
+    "target_blocked",
+    "too_close",
+    "off_table",
+    "in_keep_out",
+    "wrong_from",
+}
+"""Warnings with which a plan must not be carried out."""
+
+
+@dataclass
+class Episode:
+    """How an episode ended: `in_hand`, a verdict without a plan, `out_of_reach`, `no_path`, `refused`, `no_progress`,
+    `gave_up`, `lost` (the target slipped)."""
+
+    end: str = ""
+    outcomes: list[Outcome] = field(default_factory=list)
+    plans: int = 0
+    verifications: int = 0
+    planning_seconds: float = 0.0
+    """Of all calls, as the client waits for them."""
+    service_seconds: float = 0.0
+    """Of all plans, by the `statistics` of the answers."""
+    first_cost: int | None = None
+    faulty_plans: int = 0
+    """Plans of the paper's methods in which the service's own checker finds a fault."""
+    detail: str = ""
+
+    def to_json(self) -> dict[str, object]:
+        return {
+            "end": self.end,
+            "steps": [outcome.to_json() for outcome in self.outcomes],
+            "plans": self.plans,
+            "verifications": self.verifications,
+            "planning_s": self.planning_seconds,
+            "service_s": self.service_seconds,
+            "first_cost": self.first_cost,
+            "faulty_plans": self.faulty_plans,
+            "detail": self.detail,
+        }
+
+
+class Controller:
+    """`position_tolerance` (m) is how far two pictures of one dish may differ: with it the controller asks whether the
+    plan that it has still holds, and plans anew only where it does not. Without it (None) it plans after every step.
+    `trusting` carries out plans with known faults, which only the paper's methods make."""
+
+    def __init__(
+        self,
+        service: Service,
+        cell: Cell,
+        camera: Camera,
+        *,
+        position_tolerance: float | None = None,
+        trusting: bool = False,
+    ) -> None:
+        self._service, self._cell, self._camera = service, cell, camera
+        self._tolerance, self._trusting = position_tolerance, trusting
+        self._left: Body | None = None
+        """What is left of the plan: the steps after the one that was carried out last."""
+
+    def run(self) -> Episode:
+        episode = Episode()
+        plans, verifications, seconds = self._service.plans, self._service.verifications, self._service.seconds
+        try:
+            episode.end = self._follow(episode)
+        except OutOfReach as reason:
+            episode.end, episode.detail = "out_of_reach", str(reason)
+        except NoPath as reason:
+            episode.end, episode.detail = "no_path", str(reason)
+        except Refused as reason:
+            episode.end, episode.detail = "refused", f"{reason} {reason.faults}"
+        except GaveUp as reason:
+            episode.end, episode.detail = "gave_up", str(reason)
+        episode.plans = self._service.plans - plans
+        episode.verifications = self._service.verifications - verifications
+        episode.planning_seconds = self._service.seconds - seconds
+        return episode
+
+    def _follow(self, episode: Episode) -> str:
+        costs: list[int] = []
+        for _ in range(STEPS):
+            scene, plan = self._next_plan(episode)
+            verdict = plan["verdict"]
+            if verdict in DEFINITE:
+                return str(verdict)
+            if verdict not in ("relocate", "graspable"):
+                raise Refused(200, {"title": f"unknown verdict '{verdict}'"})
+            costs.append(len(plan["relocations"]))
+            if _stuck(costs):
+                return "no_progress"
+            if not plan["relocations"]:
+                outcome = self._cell.take(plan["target"], _seen(scene, plan["target"], plan["target_grasp"]["yaw"]))
+                episode.outcomes.append(outcome)
+                return "lost" if outcome.dropped else "in_hand"
+            episode.outcomes.append(self._carry_out(scene, plan["relocations"][0]))
+            self._left = {**plan, "relocations": plan["relocations"][1:]}
+        return "no_progress"
+
+    def _carry_out(self, scene: Scene, step: Body) -> Outcome:
+        if step["action"] not in ACTIONS:
+            raise Refused(200, {"title": f"unknown action '{step['action']}'"})
+        release = Spot(step["to"]["x"], step["to"]["y"], step["release"]["yaw"])
+        return self._cell.relocate(step["object"], _seen(scene, step["object"], step["grasp"]["yaw"]), release)
+
+    def _next_plan(self, episode: Episode) -> tuple[Scene, Body]:
+        scene = self._camera.look()
+        if self._left is not None and self._tolerance is not None:
+            try:
+                answer = self._service.verify(scene, self._left, self._tolerance)
+            except Refused as refused:
+                if refused.status != 422:
+                    raise
+            else:
+                if not answer["replan"]:
+                    return scene, self._left
+        scene, plan = self._plan(scene)
+        episode.service_seconds += sum(plan.get("statistics", {}).values()) / 1000
+        if episode.first_cost is None:
+            episode.first_cost = plan["cost"]
+        if any(_is_fault(warning) for warning in plan["warnings"]):
+            episode.faulty_plans += 1
+            if not self._trusting:
+                raise Refused(200, {"title": "The plan has a fault"})
+        return scene, plan
+
+    def _plan(self, scene: Scene) -> tuple[Scene, Body]:
+        for _ in range(PICTURES - 1):
+            try:
+                return scene, self._ask(scene)
+            except Refused as refused:
+                # Two centres that seem too near each other, or one beyond the edge: the next picture has other errors.
+                if refused.status != 422:
+                    raise
+            scene = self._camera.look()
+        return scene, self._ask(scene)
+
+    def _ask(self, scene: Scene) -> Body:
+        answer = self._service.plan(scene)
+        if answer["verdict"] != "timed_out":
+            return answer
+        settings: dict[str, Any] = scene.get("settings", {})
+        longer = min(10 * settings.get("time_limit_ms", 1000), LONGEST_LIMIT_MS)
+        return self._service.plan({**scene, "settings": {**settings, "time_limit_ms": longer}})
+
+
+def _seen(scene: Scene, name: str, yaw: float) -> Spot:
+    item = next(item for item in scene["objects"] if item["id"] == name)
+    return Spot(item["x"], item["y"], yaw)
+
+
+def _stuck(costs: list[int]) -> bool:
+    """Whether the cost has not fallen for some rounds."""
+    last = costs[-ROUNDS_WITHOUT_PROGRESS - 1 :]
+    return len(last) > ROUNDS_WITHOUT_PROGRESS and min(last[1:]) >= last[0]
+
+
+def _is_fault(warning: Body) -> bool:
+    return warning["code"] in FAULTS

@@ -1,0 +1,96 @@
+"""One episode as PNG frames and an animated picture, without a screen."""
+
+import argparse
+import json
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from PIL import Image
+
+from .episodes import Task, run
+from ..physics.judge import Phase
+from .server import generate
+from ..client.service import Service
+from ..physics.world import World, dish
+from . import Figures, own_scene
+
+OBJECTS = 20
+SIZE = (480, 300)
+"""Width and height, pixels."""
+RATE = 10
+"""Frames a second of the picture."""
+FASTER = 4
+"""How much faster than in the cell things happen in the picture."""
+COLOURS = 64
+RED, ORANGE = [0.85, 0.2, 0.15, 1], [0.95, 0.6, 0.2, 1]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", type=Path, nargs="?", help="a scene (default: a generated one)")
+    parser.add_argument("--frames", type=Path, help="a folder for the frames")
+    parser.add_argument("--picture", type=Path, default=Path("film.gif"), help="(default: film.gif)")
+    own_scene.add_cell_arguments(parser)
+
+
+def measure(options: argparse.Namespace, url: str) -> Figures:
+    scene = json.loads(options.scene.read_text(encoding="utf-8")) if options.scene else _generated(url)
+    film = Film()
+    figures = run(Task(url, scene, options.mechanism, options.sigma, options.seed), film.see)
+    if options.frames:
+        options.frames.mkdir(parents=True, exist_ok=True)
+        for number, frame in enumerate(film.frames):
+            frame.save(options.frames / f"{number:04}.png")
+    film.save(options.picture)
+    return {**figures, "frames": len(film.frames), "picture": str(options.picture)}
+
+
+def text(figures: Figures) -> str:
+    return f"{own_scene.text(figures)}\n{figures['frames']} frames, {figures['picture']}"
+
+
+def _generated(url: str) -> Figures:
+    """The first scene whose target needs two relocations."""
+    with Service(url) as service:
+        for seed in range(1000):
+            scene = generate(OBJECTS, seed)
+            if service.plan(scene)["cost"] == 2:
+                return scene
+    raise RuntimeError("no scene needs two relocations")
+
+
+class Film:
+    def __init__(self) -> None:
+        self.frames: list[Image.Image] = []
+        self._renderer: mujoco.Renderer | None = None
+        self._next = 0.0
+
+    def see(self, world: World, phase: Phase, name: str) -> None:
+        """Takes a frame where one is due. The dish that the step is about is orange, the target red."""
+        if world.data.time < self._next:
+            return
+        if self._renderer is None:
+            self._renderer = mujoco.Renderer(world.model, SIZE[1], SIZE[0])
+        self._next = world.data.time + FASTER / RATE
+        self._colour(world, name)
+        self._renderer.update_scene(world.data, _camera(world))
+        self.frames.append(Image.fromarray(self._renderer.render()))
+
+    def save(self, path: Path) -> None:
+        frames = [frame.quantize(COLOURS, dither=Image.Dither.NONE) for frame in self.frames]
+        frames[0].save(path, save_all=True, append_images=frames[1:], duration=1000 // RATE, loop=0, optimize=True)
+
+    def _colour(self, world: World, name: str) -> None:
+        for item in world.scene["objects"]:
+            grey = [0.35, 0.35, 0.35, 1] if item.get("fixed") else [0.93, 0.93, 0.9, 1]
+            colour = RED if item["id"] == world.scene["target"] else ORANGE if item["id"] == name else grey
+            world.model.geom(dish(item["id"])).rgba = colour
+
+
+def _camera(world: World) -> mujoco.MjvCamera:
+    table = world.scene["table"]
+    camera = mujoco.MjvCamera()
+    camera.lookat = np.array([(table["x_min"] + table["x_max"]) / 2, (table["y_min"] + table["y_max"]) / 2, 0.05])
+    camera.distance = 1.25 * max(table["x_max"] - table["x_min"], table["y_max"] - table["y_min"])
+    camera.azimuth, camera.elevation = 115, -42
+    return camera

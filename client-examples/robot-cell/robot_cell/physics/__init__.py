@@ -1,0 +1,1 @@
+"""The world, the hands, what carries them, and the judge."""

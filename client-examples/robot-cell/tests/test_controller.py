@@ -1,0 +1,125 @@
+"""The controller against a service that says what the test wants."""
+
+import json
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from robot_cell.client import service as calls
+from robot_cell.physics.camera import Camera
+from robot_cell.physics.cell import Outcome, Spot
+from robot_cell.client.controller import Controller, Episode
+from robot_cell.physics.gantry import Gantry
+from robot_cell.client.service import Service
+from robot_cell.physics.world import build
+from test_judge import TABLE, scene
+
+STEP: dict[str, Any] = {
+    "action": "pick_place",
+    "object": "plate",
+    "from": {"x": 0.56, "y": 0.35},
+    "to": {"x": 1.0, "y": 0.3},
+    "grasp": {"yaw": 0.0},
+    "release": {"yaw": 0.5},
+}
+RELOCATE: dict[str, Any] = {
+    "verdict": "relocate",
+    "target": "cup",
+    "relocations": [STEP],
+    "target_grasp": {"yaw": 0.1},
+    "cost": 1,
+    "warnings": [],
+}
+GRASPABLE = {**RELOCATE, "verdict": "graspable", "relocations": [], "cost": 0}
+
+
+class StillCell:
+    """Carries out nothing, and remembers what it should have."""
+
+    def __init__(self) -> None:
+        self.world = build(scene(("cup", 0.4, 0.35), ("plate", 0.56, 0.35)), Gantry(TABLE))
+        self.done: list[str] = []
+
+    def relocate(self, name: str, _grasp: Spot, _release: Spot) -> Outcome:
+        self.done.append(f"relocate {name}")
+        return Outcome(name)
+
+    def take(self, name: str, _grasp: Spot) -> Outcome:
+        self.done.append(f"take {name}")
+        return Outcome(name)
+
+
+def run(*answers: Any, **options: Any) -> tuple[Episode, StillCell, list[str]]:
+    """An episode with these answers in turn: a body, or a status with a body. Also the paths that were asked for."""
+    left, asked = list(answers), []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(request.url.path)
+        body = left.pop(0)
+        status, body = body if isinstance(body, tuple) else (200, body)
+        seen = json.loads(request.content)
+        if request.url.path == "/v1/plans":
+            body = {"scene_id": seen["scene_id"], **body}
+        return httpx.Response(status, json=body, headers={"retry-after": "0"})
+
+    cell = StillCell()
+    camera = Camera(cell.world, 0.0, np.random.default_rng(0))
+    with Service("http://service", transport=httpx.MockTransport(answer)) as service:
+        episode = Controller(service, cell, camera, **options).run()  # type: ignore[arg-type]
+    return episode, cell, asked
+
+
+def test_one_step_then_a_look_and_another_plan() -> None:
+    episode, cell, asked = run(RELOCATE, GRASPABLE)
+    assert episode.end == "in_hand" and cell.done == ["relocate plate", "take cup"]
+    assert asked == ["/v1/plans", "/v1/plans"] and episode.first_cost == 1
+
+
+def test_a_plan_that_still_holds_is_not_asked_for_again() -> None:
+    episode, cell, asked = run(RELOCATE, {"valid": True, "replan": False}, position_tolerance=0.006)
+    assert cell.done == ["relocate plate", "take cup"] and asked == ["/v1/plans", "/v1/plans/verify"]
+    assert (episode.plans, episode.verifications) == (1, 1)
+
+
+def test_a_plan_that_no_longer_holds_is_made_anew() -> None:
+    _, cell, asked = run(RELOCATE, {"valid": False, "replan": True}, GRASPABLE, position_tolerance=0.006)
+    assert cell.done == ["relocate plate", "take cup"]
+    assert asked == ["/v1/plans", "/v1/plans/verify", "/v1/plans"]
+
+
+@pytest.mark.parametrize("verdict", ["deadlock", "no_space"])
+def test_a_verdict_without_a_plan_ends_the_episode(verdict: str) -> None:
+    episode, cell, _ = run({**GRASPABLE, "verdict": verdict, "cost": None})
+    assert episode.end == verdict and cell.done == []
+
+
+def test_more_time_is_asked_for_once() -> None:
+    late = {**GRASPABLE, "verdict": "timed_out", "cost": None}
+    assert run(late, GRASPABLE)[0].end == "in_hand"
+    assert run(late, late)[0].end == "timed_out"
+
+
+def test_a_busy_service_is_asked_again_and_at_last_given_up() -> None:
+    busy = (503, {"title": "Busy"})
+    assert run(busy, busy, GRASPABLE)[0].end == "in_hand"
+    assert run(*[busy] * calls.TRIES)[0].end == "gave_up"
+
+
+def test_a_scene_that_is_refused_is_looked_at_again() -> None:
+    refused = (422, {"title": "No", "errors": []})
+    assert run(refused, GRASPABLE)[0].end == "in_hand"
+    assert run(*[refused] * 5)[0].end == "refused"
+
+
+def test_unknown_verdicts_and_actions_and_faulty_plans_are_refused() -> None:
+    unknown = {**RELOCATE, "relocations": [{**STEP, "action": "push"}]}
+    faulty = {**RELOCATE, "warnings": [{"code": "release_blocked"}]}
+    assert run({**GRASPABLE, "verdict": "perhaps"})[0].end == "refused"
+    assert run(unknown)[0].end == "refused"
+    assert run(faulty)[0].end == "refused"
+    assert run(faulty, GRASPABLE, trusting=True)[0].end == "in_hand"
+
+
+def test_a_cost_that_does_not_fall_ends_it() -> None:
+    assert run(*[RELOCATE] * 4)[0].end == "no_progress"
