@@ -123,8 +123,8 @@ pub(crate) fn relocations(figures: &Tallied<Relocations>, tolerance: &Tolerance)
         "## A thousand relocations\n\n\
          `client-examples/robot-cell/run relocations`: a gantry carries out {} relocations in {} episodes. It reaches \
          everything, and it is told where each dish stands, so neither an arm's reach nor a camera's error plays a part. The \
-         dishes of `paper-N` are N of the paper's, those of `mixed-N` are N of different radii. Each target is the object of \
-         its scene that needs the most relocations and can be freed. Success, clean, collisions and disturbances are as in \
+         dishes of a kind called `paper` are all alike, as the paper's are, the others have different radii. Two jaws are a \
+         2F-85, all others a hand with three pads. Each target is the object of its scene that needs the most relocations and can be freed. Success, clean, collisions and disturbances are as in \
          Table III. A place's error is the distance between where a dish was to be and where it is in the end.\n\n{}\n\
          ### The simulator's own tolerance\n\n\
          `client-examples/robot-cell/run tolerance`: pairs that stand a few micrometres apart. What the simulator reports of \

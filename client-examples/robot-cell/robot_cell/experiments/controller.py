@@ -11,8 +11,8 @@ from . import Figures
 from .noise import OBJECTS, with_margins
 
 SIGMA = 0.001
-LEFT_BY_THE_HAND = 1 / 3
-"""Of an error of the seen place, after three pads have closed on the dish: see `run hand`."""
+LEFT_BY_THE_HAND = 0.5
+"""Of an error of the seen place, after three pads have closed on the dish, at most: see `run hand`."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

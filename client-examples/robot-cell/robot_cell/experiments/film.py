@@ -91,6 +91,6 @@ def _camera(world: World) -> mujoco.MjvCamera:
     table = world.scene["table"]
     camera = mujoco.MjvCamera()
     camera.lookat = np.array([(table["x_min"] + table["x_max"]) / 2, (table["y_min"] + table["y_max"]) / 2, 0.05])
-    camera.distance = 1.25 * max(table["x_max"] - table["x_min"], table["y_max"] - table["y_min"])
-    camera.azimuth, camera.elevation = 115, -42
+    camera.distance = 1.4 * max(table["x_max"] - table["x_min"], table["y_max"] - table["y_min"])
+    camera.azimuth, camera.elevation = -62, -40
     return camera
