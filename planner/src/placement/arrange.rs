@@ -7,7 +7,7 @@ use super::candidates::{Candidates, PlaceSpec};
 use super::effort::{Effort, EffortMeter};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
-use super::{Objective, PREFERRED_GAP, Relocation};
+use super::{Objective, PREFERRED_GAPS, Relocation};
 use crate::budget::{Budget, Interrupted, Stop};
 use crate::geometry::Grasp;
 use crate::knowledge::GraspModel;
@@ -174,7 +174,8 @@ impl Arranger<'_, '_> {
         let radius = self.table.layout.footprint(object).circumradius();
         let mut places: Vec<(Pose, Grasp)> = Vec::new();
         self.table.layout.lift(object, true);
-        for (preferred, spread) in [(PREFERRED_GAP, false), (0.0, false), (0.0, true)] {
+        let passes = PREFERRED_GAPS.map(|preferred| (preferred, false)).into_iter().chain([(0.0, true)]);
+        for (preferred, spread) in passes {
             if places.len() >= self.width {
                 break;
             }
