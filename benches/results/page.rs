@@ -33,6 +33,7 @@ pub(crate) fn files() -> Vec<(&'static str, String)> {
         noise_page::noise(&robot.noise),
         noise_page::controller(&robot.controller),
         robot_page::hand(&robot.hand),
+        robot_page::palm(&robot.palm),
     ];
     let drawn = "finite figures";
     let text = sections.join("\n");
@@ -53,6 +54,7 @@ fn robot() -> Robot {
         noise: read("noise.json"),
         controller: read("controller.json"),
         hand: read("hand.json"),
+        palm: read("palm.json"),
     }
 }
 

@@ -16,6 +16,7 @@ pub(crate) struct Robot {
     pub(crate) noise: Noise,
     pub(crate) controller: Controller,
     pub(crate) hand: Hand,
+    pub(crate) palm: Palm,
 }
 
 /// What many episodes come to.
@@ -158,9 +159,27 @@ pub(crate) struct Grasps {
     pub(crate) worst: f64,
 }
 
+/// Palms over neighbours of different heights.
+#[derive(Deserialize)]
+pub(crate) struct Palm {
+    pub(crate) command: String,
+    /// The lowest dish and the tallest one, m.
+    pub(crate) heights: [f64; 2],
+    pub(crate) rows: Vec<Fingers>,
+}
+
+/// What fingers of one length came to.
+#[derive(Deserialize)]
+pub(crate) struct Fingers {
+    pub(crate) finger_length: f64,
+    pub(crate) steps: u32,
+    /// Steps in which the palm meets a neighbour.
+    pub(crate) palm_meets: u32,
+}
+
 impl Robot {
     /// Each file's name and the command that writes it.
-    pub(crate) fn commands(&self) -> [(&str, &str); 6] {
+    pub(crate) fn commands(&self) -> [(&str, &str); 7] {
         [
             ("table3", &self.table3.command),
             ("relocations", &self.relocations.of.command),
@@ -168,6 +187,7 @@ impl Robot {
             ("noise", &self.noise.command),
             ("controller", &self.controller.command),
             ("hand", &self.hand.command),
+            ("palm", &self.palm.command),
         ]
     }
 }

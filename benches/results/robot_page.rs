@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::markdown::{count, length, millimetres, or_dash, percent, row, share, table, time};
-use crate::robot::{Apart, Column3, Hand, Relocations, Table3, Tallied, Tally, Tolerance};
+use crate::robot::{Apart, Column3, Hand, Palm, Relocations, Table3, Tallied, Tally, Tolerance};
 
 /// The ends that have a column, and that of a success.
 const NAMED_ENDS: [&str; 4] = ["in_hand", "out_of_reach", "no_path", "no_space"];
@@ -124,8 +124,9 @@ pub(crate) fn relocations(figures: &Tallied<Relocations>, tolerance: &Tolerance)
          `client-examples/robot-cell/run relocations`: a gantry carries out {} relocations in {} episodes. It reaches \
          everything, and it is told where each dish stands, so neither an arm's reach nor a camera's error plays a part. The \
          dishes of a kind called `paper` are all alike, as the paper's are, the others have different radii. Two jaws are a \
-         2F-85, all others a hand with three pads. Each target is the object of its scene that needs the most relocations and can be freed. Success, clean, collisions and disturbances are as in \
-         Table III. A place's error is the distance between where a dish was to be and where it is in the end.\n\n{}\n\
+         2F-85, all others a hand with three pads. Each target is the object of its scene that needs the most relocations \
+         and can be freed. Success, clean, collisions and disturbances are as in Table III. A place's error is the \
+         distance between where a dish was to be and where it is in the end.\n\n{}\n\
          ### The simulator's own tolerance\n\n\
          `client-examples/robot-cell/run tolerance`: pairs that stand a few micrometres apart. What the simulator reports of \
          them is its own error.\n\n{}\n{}",
@@ -203,6 +204,22 @@ pub(crate) fn hand(figures: &Hand) -> String {
          relocates it. The table has the distance between the dish and its new place, mean / greatest of {} grasps. Two jaws \
          push a dish along one line only, three pads or more push it towards the middle.\n\n{}",
         figures.grasps,
+        table(&rows),
+    )
+}
+
+/// The section of palms.
+pub(crate) fn palm(figures: &Palm) -> String {
+    let mut rows = vec![row(["fingers", "steps", "the palm meets a neighbour"])];
+    for fingers in &figures.rows {
+        let met = share(fingers.palm_meets, fingers.steps);
+        rows.push(row([&millimetres(fingers.finger_length), &fingers.steps.to_string(), &met]));
+    }
+    let [low, high] = figures.heights.map(millimetres);
+    format!(
+        "## Palms over neighbours\n\n\
+         `client-examples/robot-cell/run palm`: dishes are {low} to {high} high. Only those that go under the palm are grasped, \
+         with the fingertips at the table.\n\n{}",
         table(&rows),
     )
 }

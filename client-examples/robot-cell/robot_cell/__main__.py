@@ -7,7 +7,7 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-from .experiments import controller, film, hand, noise, own_scene, relocations, table3, tolerance
+from .experiments import controller, film, hand, noise, own_scene, palm, relocations, table3, tolerance
 from .experiments.server import service
 
 COMMANDS = {
@@ -16,6 +16,7 @@ COMMANDS = {
     "noise": noise,
     "controller": controller,
     "hand": hand,
+    "palm": palm,
     "tolerance": tolerance,
     "scene": own_scene,
     "film": film,

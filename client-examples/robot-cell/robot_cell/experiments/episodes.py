@@ -61,7 +61,7 @@ def run(task: Task, watch: Watcher | None = None) -> dict[str, Any]:
 def each(tasks: list[Task], jobs: int, what: str) -> Iterator[dict[str, Any]]:
     """The episodes in the order of their tasks, `jobs` at a time, with a bar on stderr."""
     with workers(jobs) as pool:
-        yield from tqdm(pool.map(run, tasks), total=len(tasks), desc=what, unit="episode", leave=False)
+        yield from tqdm(pool.map(run, tasks), total=len(tasks), desc=what, unit="episode", leave=False, disable=None)
 
 
 def workers(jobs: int) -> ProcessPoolExecutor:

@@ -50,7 +50,7 @@ def measure(options: argparse.Namespace, url: str) -> Figures:
     kinds: list[str] = []
     episodes: list[Figures] = []
     relocations = 0
-    with tqdm(total=options.count, desc="relocations", leave=False) as bar, closing(episodes_of(options, url)) as drawn:
+    with tqdm(total=options.count, desc="relocations", leave=False, disable=None) as bar, closing(episodes_of(options, url)) as drawn:
         for kind, episode in drawn:
             kinds.append(kind)
             episodes.append(episode)

@@ -20,7 +20,7 @@ OPENING = 0.4
 REST = 0.1
 """After closing, after opening and before the next look, s."""
 SLIPPED, TILTED = 0.005, 0.1
-"""A dish that has moved or leans so far in the hand is dropped, m and rad."""
+"""A dish that has moved or leans so far in the hand is dropped, m and rad. So is one that is pushed over the table's edge."""
 
 
 Places = dict[str, Vector]
@@ -117,9 +117,16 @@ class Cell:
         after = self.world.places()
         moved = {name: float(np.hypot(*(after[name] - place)[:2])) for name, place in before.items()}
         outcome.disturbed = {n: way for n, way in moved.items() if way > DISTURBANCE and n != outcome.name}
+        outcome.dropped |= any(self._is_off_table(place) for place in after.values())
         outcome.contacts = self.judge.found()
         outcome.seconds = float(self.world.data.time) - began
         return outcome
+
+    def _is_off_table(self, place: Vector) -> bool:
+        """Whether a dish would fall: the table's plane has no edge."""
+        table = self.world.scene["table"]
+        x, y = place[:2]
+        return not (table["x_min"] <= x <= table["x_max"] and table["y_min"] <= y <= table["y_max"])
 
     def _slipped(self, name: str, held_at: Vector) -> bool:
         dish = self.world.data.xmat[self.world.dishes[name]]

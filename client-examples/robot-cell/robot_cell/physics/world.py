@@ -130,7 +130,7 @@ def _light(spec: mujoco.MjSpec, table: dict[str, float]) -> None:
 def _add_table(spec: mujoco.MjSpec, table: dict[str, float]) -> None:
     low, high = np.array([table["x_min"], table["y_min"]]), np.array([table["x_max"], table["y_max"]])
     middle, half = (high + low) / 2, (high - low) / 2
-    # A dish on a box gets a single contact and topples; on a plane it gets four. A plane has no edge: the judge looks for
+    # A dish on a box gets a single contact and topples, on a plane it gets three. A plane has no edge: the cell looks for
     # dishes beyond it.
     spec.worldbody.add_geom(
         name=TABLE,
