@@ -33,7 +33,7 @@ pub struct VerifyBody {
     #[schema(minimum = 0, maximum = 1, example = 0.002)]
     pub position_tolerance: Option<f64>,
     /// True if `plan` has only the steps that are left, or the next one. Then only `relocations` and `target_grasp` are
-    /// checked, and `target_grasp` may be absent. Default: false.
+    /// checked, without stated slacks and gaps, and `target_grasp` may be absent. Default: false.
     #[schema(example = false)]
     pub partial: Option<bool>,
 }

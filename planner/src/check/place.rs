@@ -1,5 +1,7 @@
 //! Checks a new place: on the table, outside every keep-out, clear of other objects.
 
+use core::cell::Cell;
+
 use crate::budget::{Interrupted, Ticker};
 use crate::scene::{Footprint, ObjectIndex, Rectangle, Scene};
 
@@ -33,8 +35,8 @@ impl Landing<'_> {
         }
         self.clear(faults, ticker)?;
         if let Some(stated) = stated_gap {
-            ticker.step(1)?;
-            self.gap_as_stated(stated, faults);
+            let visited = self.gap_as_stated(stated, faults);
+            ticker.step(1 + visited / 16)?;
         }
         Ok(())
     }
@@ -88,13 +90,19 @@ impl Landing<'_> {
         ticker.step(1 + visited / 16)
     }
 
-    fn gap_as_stated(&self, stated: f64, faults: &mut Faults) {
-        let real = self.places.least_gap(&self.to, |place| self.taken(place));
+    /// How many places were looked at: places that nothing stands on end no search.
+    fn gap_as_stated(&self, stated: f64, faults: &mut Faults) -> usize {
+        let visited = Cell::new(0);
+        let real = self.places.least_gap(&self.to, |place| {
+            visited.set(visited.get() + 1);
+            self.taken(place)
+        });
         // NaN agrees with nothing.
         let agrees = (real - stated).abs() <= TOLERANCE;
         if !agrees {
             let detail = || format!("the least gap is {real:.9} m, not {} m", figure(stated));
             faults.of_step(FaultCode::WrongGap, self.step, self.id(), detail);
         }
+        visited.get()
     }
 }

@@ -10,13 +10,13 @@ pub struct Terms {
     /// replayed from the scene's places. Above 0, stated slacks and gaps are not compared: they belong to the stated places.
     pub position_tolerance: f64,
     /// True for a part of a plan: the steps that are left, or the next one. Only the steps and the final grasp, if there is
-    /// one, are checked.
+    /// one, are checked. Stated slacks and gaps are not compared: other objects may have been moved since.
     pub partial: bool,
 }
 
 impl Terms {
     /// True if the stated slacks and gaps must be those of the scene.
     pub(super) fn exact(&self) -> bool {
-        self.position_tolerance <= 0.0
+        self.position_tolerance <= 0.0 && !self.partial
     }
 }

@@ -114,3 +114,24 @@ fn a_pile_of_steps_ends_with_the_budget() {
     assert!(report.interrupted);
     assert_eq!(report.faults.len(), MAX_FAULTS);
 }
+
+#[test]
+fn stated_gaps_end_with_the_budget_too() {
+    // So few steps without gaps are replayed in any case. A gap looks at every place of the steps: nothing stands on them.
+    let scene = Builder::new(2).disc("target", 1.9, 0.1, 0.01).disc("cup", 1.0, 1.0, 0.01).build("target");
+    let place = |n: usize| [0.2 + n as f64 * 1e-3, 0.2 + (n * 7919 % 1_200) as f64 * 1e-3];
+    let report = |gap: Option<f64>| {
+        let mut stated = Statement {
+            relocations: Some((0..1_200).map(|n| step("cup", place(n), 0.0, 0.0)).collect()),
+            target_grasp: Some(StatedGrasp { yaw: 0.0, slack: None }),
+            ..Statement::default()
+        };
+        for n in 0..1_200 {
+            step_mut(&mut stated, n).from = None;
+            step_mut(&mut stated, n).gap = gap;
+        }
+        check(&scene, &stated, &Budget::new(&Ticking::default(), Duration::ZERO))
+    };
+    assert!(!report(None).has(ReplayUnconfirmed));
+    assert!(report(Some(1.0)).has(ReplayUnconfirmed));
+}

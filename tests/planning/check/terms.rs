@@ -63,7 +63,7 @@ fn objects_may_stand_as_far_off_as_the_tolerance_says() {
     let scene = after(0, 1e-4);
     let off = 2.0_f64.sqrt() * 1e-4;
     let within = |position_tolerance| Terms { position_tolerance, partial: true };
-    expect(&within(0.0), &scene, &rest(0), Some(0), &[WrongFrom, WrongGap]);
+    expect(&within(0.0), &scene, &rest(0), Some(0), &[WrongFrom]);
     expect(&within(off - 1e-6), &scene, &rest(0), Some(0), &[WrongFrom]);
     expect(&within(off + 1e-6), &scene, &rest(0), None, &[]);
     // `west` is put where it touches `far` as stated, but `far` stands nearer now: the stated places are not shifted.
@@ -90,12 +90,14 @@ fn the_grippers_axis_moves_along_with_the_object() {
 }
 
 #[test]
-fn slacks_are_those_of_the_places_as_stated() {
-    let mut stated = rest(2);
+fn stated_slacks_and_gaps_are_those_of_a_whole_plan_on_the_scene_as_it_was() {
+    let mut stated = gate_plan();
     stated.target_grasp = Some(grasp(0.0, FRAC_PI_2));
-    expect(&PART, &after(2, 0.0), &stated, Some(1), &[TargetBlocked]);
-    // With a tolerance only the yaw itself has to be free.
-    expect(&Terms { position_tolerance: 1e-3, partial: true }, &after(2, 0.0), &stated, None, &[]);
+    step_mut(&mut stated, 0).gap = Some(0.5);
+    expect(&Terms::default(), &after(0, 0.0), &stated, Some(0), &[WrongGap, TargetBlocked]);
+    // With a tolerance, or of a part, only the yaw itself has to be free.
+    expect(&Terms { position_tolerance: 1e-3, partial: false }, &after(0, 0.0), &stated, None, &[]);
+    expect(&PART, &after(0, 0.0), &stated, None, &[]);
 }
 
 #[test]
