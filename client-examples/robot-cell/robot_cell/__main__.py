@@ -2,15 +2,17 @@
 
 import argparse
 import json
-import os
+import signal
 import sys
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
+from .client.service import GaveUp, Refused
 from .experiments import controller, film, hand, noise, own_scene, palm, relocations, table3, tolerance
 from .experiments.server import service
 
-COMMANDS = {
+COMMANDS: dict[str, Any] = {
     "table3": table3,
     "relocations": relocations,
     "noise": noise,
@@ -21,21 +23,28 @@ COMMANDS = {
     "scene": own_scene,
     "film": film,
 }
+"""Modules with `add_arguments`, `measure`, `text`, and where the exit status is not always 0 `status`."""
+INTERRUPTED = 130
 
 
 def main() -> int:
     options = arguments()
     command = COMMANDS[options.command]
+    for ended in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(ended, lambda *_: sys.exit(1))
     try:
         with service() as url:
             figures = {"command": called(options), "versions": versions(), **command.measure(options, url)}
-    except (FileNotFoundError, RuntimeError, ValueError) as error:
+    except (OSError, RuntimeError, ValueError, GaveUp, Refused) as error:
         print(error, file=sys.stderr)
-        return 1
-    print(command.text(figures))
+        return 2 if isinstance(error, Refused) else 1
+    except KeyboardInterrupt:
+        print("stopped", file=sys.stderr)
+        return INTERRUPTED
     if options.out:
         options.out.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    return 0
+    print(command.text(figures))
+    return int(command.status(figures)) if hasattr(command, "status") else 0
 
 
 def called(options: argparse.Namespace) -> str:
@@ -57,12 +66,19 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="run", description="Carries out plans of singulate in physics.")
     commands = parser.add_subparsers(dest="command", required=True)
     for name, module in COMMANDS.items():
-        about = (module.__doc__ or "").strip().splitlines()[0]
+        about = module.__doc__.strip().splitlines()[0]
         command = commands.add_parser(name, help=about, description=about)
-        command.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: one a core)")
-        command.add_argument("--out", type=Path, help="a file for the figures as JSON")
+        command.add_argument("--out", type=new_file, help="a file for the figures as JSON")
         module.add_arguments(command)
     return parser.parse_args()
+
+
+def new_file(text: str) -> Path:
+    """Told before hours of work, not after."""
+    path = Path(text)
+    if path.is_dir() or not path.absolute().parent.is_dir():
+        raise argparse.ArgumentTypeError(f"{path} can't be written")
+    return path
 
 
 if __name__ == "__main__":

@@ -6,14 +6,15 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
+from test_judge import TABLE, scene
+
 from robot_cell.client import service as calls
+from robot_cell.client.controller import Controller, Episode
+from robot_cell.client.service import Service
 from robot_cell.physics.camera import Camera
 from robot_cell.physics.cell import Outcome, Spot
-from robot_cell.client.controller import Controller, Episode
 from robot_cell.physics.gantry import Gantry
-from robot_cell.client.service import Service
 from robot_cell.physics.world import build
-from test_judge import TABLE, scene
 
 STEP: dict[str, Any] = {
     "action": "pick_place",
@@ -29,6 +30,8 @@ RELOCATE: dict[str, Any] = {
     "relocations": [STEP],
     "target_grasp": {"yaw": 0.1},
     "cost": 1,
+    "deadlock": None,
+    "needed": None,
     "warnings": [],
 }
 GRASPABLE = {**RELOCATE, "verdict": "graspable", "relocations": [], "cost": 0}
@@ -88,10 +91,12 @@ def test_a_plan_that_no_longer_holds_is_made_anew() -> None:
     assert asked == ["/v1/plans", "/v1/plans/verify", "/v1/plans"]
 
 
-@pytest.mark.parametrize("verdict", ["deadlock", "no_space"])
-def test_a_verdict_without_a_plan_ends_the_episode(verdict: str) -> None:
-    episode, cell, _ = run({**GRASPABLE, "verdict": verdict, "cost": None})
-    assert episode.end == verdict and cell.done == []
+def test_a_verdict_without_a_plan_ends_the_episode_and_says_why() -> None:
+    none = {**GRASPABLE, "cost": None, "target_grasp": None}
+    episode, cell, _ = run({**none, "verdict": "deadlock", "deadlock": {"core": ["cup", "plate"]}})
+    assert (episode.end, episode.detail, cell.done) == ("deadlock", "cup, plate hold each other", [])
+    episode, cell, _ = run({**none, "verdict": "no_space", "needed": ["plate"]})
+    assert (episode.end, episode.detail, cell.done) == ("no_space", "plate would have to go", [])
 
 
 def test_more_time_is_asked_for_once() -> None:
@@ -103,7 +108,19 @@ def test_more_time_is_asked_for_once() -> None:
 def test_a_busy_service_is_asked_again_and_at_last_given_up() -> None:
     busy = (503, {"title": "Busy"})
     assert run(busy, busy, GRASPABLE)[0].end == "in_hand"
-    assert run(*[busy] * calls.TRIES)[0].end == "gave_up"
+    with pytest.raises(calls.GaveUp):
+        run(*[busy] * calls.TRIES)
+
+
+def test_a_key_that_is_refused_is_no_outcome_of_the_episode() -> None:
+    with pytest.raises(calls.Refused, match="Not authorized"):
+        run((401, {"title": "Not authorized"}))
+
+
+def test_a_fault_of_the_service_is_asked_again_once() -> None:
+    fault = (500, {"title": "Fault"})
+    assert run(fault, GRASPABLE)[0].end == "in_hand"
+    assert run(fault, fault)[0].end == "refused"
 
 
 def test_a_scene_that_is_refused_is_looked_at_again() -> None:

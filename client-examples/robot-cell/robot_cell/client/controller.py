@@ -5,9 +5,8 @@ from typing import Any
 
 from ..physics.camera import Camera
 from ..physics.cell import Cell, Outcome, Spot
-from ..physics.mechanism import NoPath, OutOfReach
-from .service import LONGEST_LIMIT_MS, Body, GaveUp, Refused, Service
 from ..physics.world import Scene
+from .service import DEFAULT_LIMIT_MS, LONGEST_LIMIT_MS, Body, Refused, Service
 
 STEPS = 50
 """More steps than any of these plans has. A controller that needs more goes round in circles."""
@@ -17,24 +16,34 @@ ROUNDS_WITHOUT_PROGRESS = 3
 DEFINITE = {"deadlock", "no_space", "timed_out"}
 ACTIONS = {"pick_place"}
 FAULTS = {
+    "unknown_object",
+    "fixed_object_moved",
+    "target_moved",
+    "number_out_of_range",
+    "wrong_from",
+    "off_table",
+    "in_keep_out",
+    "too_close",
+    "wrong_gap",
     "grasp_blocked",
     "release_blocked",
     "target_blocked",
-    "too_close",
-    "off_table",
-    "in_keep_out",
-    "wrong_from",
+    "wrong_slack",
 }
-"""Warnings with which a plan must not be carried out."""
+"""Warnings with which a plan must not be carried out. Only the paper's methods make such plans."""
+WRONG_UNITS = {"out_of_proportion", "wide_yaw_tolerance"}
+"""Warnings that a number of the scene is in another unit."""
 
 
 @dataclass
 class Episode:
     """How an episode ended: `in_hand`, a verdict without a plan, `out_of_reach`, `no_path`, `refused`, `no_progress`,
-    `gave_up`, `lost` (the target slipped)."""
+    `lost` (the target slipped)."""
 
     end: str = ""
     outcomes: list[Outcome] = field(default_factory=list)
+    pictures: int = 0
+    """Those of scenes that the service refused included."""
     plans: int = 0
     verifications: int = 0
     planning_seconds: float = 0.0
@@ -50,6 +59,7 @@ class Episode:
         return {
             "end": self.end,
             "steps": [outcome.to_json() for outcome in self.outcomes],
+            "pictures": self.pictures,
             "plans": self.plans,
             "verifications": self.verifications,
             "planning_s": self.planning_seconds,
@@ -80,18 +90,16 @@ class Controller:
         """What is left of the plan: the steps after the one that was carried out last."""
 
     def run(self) -> Episode:
+        """Raises GaveUp without a service, and Refused where it asks for another key."""
         episode = Episode()
         plans, verifications, seconds = self._service.plans, self._service.verifications, self._service.seconds
         try:
             episode.end = self._follow(episode)
-        except OutOfReach as reason:
-            episode.end, episode.detail = "out_of_reach", str(reason)
-        except NoPath as reason:
-            episode.end, episode.detail = "no_path", str(reason)
         except Refused as reason:
-            episode.end, episode.detail = "refused", f"{reason} {reason.faults}"
-        except GaveUp as reason:
-            episode.end, episode.detail = "gave_up", str(reason)
+            if reason.status in (401, 403):
+                raise
+            episode.end, episode.detail = "refused", str(reason)
+        episode.pictures = self._camera.pictures
         episode.plans = self._service.plans - plans
         episode.verifications = self._service.verifications - verifications
         episode.planning_seconds = self._service.seconds - seconds
@@ -103,6 +111,7 @@ class Controller:
             scene, plan = self._next_plan(episode)
             verdict = plan["verdict"]
             if verdict in DEFINITE:
+                episode.detail = _reason(plan)
                 return str(verdict)
             if verdict not in ("relocate", "graspable"):
                 raise Refused(200, {"title": f"unknown verdict '{verdict}'"})
@@ -111,11 +120,18 @@ class Controller:
                 return "no_progress"
             if not plan["relocations"]:
                 outcome = self._cell.take(plan["target"], _seen(scene, plan["target"], plan["target_grasp"]["yaw"]))
-                episode.outcomes.append(outcome)
-                return "lost" if outcome.dropped else "in_hand"
-            episode.outcomes.append(self._carry_out(scene, plan["relocations"][0]))
+                self._note(episode, outcome)
+                return outcome.failure or ("lost" if outcome.dropped else "in_hand")
+            outcome = self._carry_out(scene, plan["relocations"][0])
+            self._note(episode, outcome)
+            if outcome.failure:
+                return outcome.failure
             self._left = {**plan, "relocations": plan["relocations"][1:]}
         return "no_progress"
+
+    def _note(self, episode: Episode, outcome: Outcome) -> None:
+        episode.outcomes.append(outcome)
+        episode.detail = outcome.detail
 
     def _carry_out(self, scene: Scene, step: Body) -> Outcome:
         if step["action"] not in ACTIONS:
@@ -138,10 +154,10 @@ class Controller:
         episode.service_seconds += sum(plan.get("statistics", {}).values()) / 1000
         if episode.first_cost is None:
             episode.first_cost = plan["cost"]
-        if any(_is_fault(warning) for warning in plan["warnings"]):
-            episode.faulty_plans += 1
-            if not self._trusting:
-                raise Refused(200, {"title": "The plan has a fault"})
+        codes = {warning["code"] for warning in plan["warnings"]}
+        episode.faulty_plans += bool(codes & FAULTS)
+        if codes & WRONG_UNITS or (codes & FAULTS and not self._trusting):
+            raise Refused(200, {"title": f"a plan with the warnings {sorted(codes)}"})
         return scene, plan
 
     def _plan(self, scene: Scene) -> tuple[Scene, Body]:
@@ -159,8 +175,8 @@ class Controller:
         answer = self._service.plan(scene)
         if answer["verdict"] != "timed_out":
             return answer
-        settings: dict[str, Any] = scene.get("settings", {})
-        longer = min(10 * settings.get("time_limit_ms", 1000), LONGEST_LIMIT_MS)
+        settings: dict[str, Any] = scene.get("settings") or {}
+        longer = min(10 * (settings.get("time_limit_ms") or DEFAULT_LIMIT_MS), LONGEST_LIMIT_MS)
         return self._service.plan({**scene, "settings": {**settings, "time_limit_ms": longer}})
 
 
@@ -169,11 +185,13 @@ def _seen(scene: Scene, name: str, yaw: float) -> Spot:
     return Spot(item["x"], item["y"], yaw)
 
 
+def _reason(plan: Body) -> str:
+    if plan["deadlock"]:
+        return f"{', '.join(plan['deadlock']['core'])} hold each other"
+    return f"{', '.join(plan['needed'])} would have to go" if plan["needed"] else ""
+
+
 def _stuck(costs: list[int]) -> bool:
     """Whether the cost has not fallen for some rounds."""
     last = costs[-ROUNDS_WITHOUT_PROGRESS - 1 :]
     return len(last) > ROUNDS_WITHOUT_PROGRESS and min(last[1:]) >= last[0]
-
-
-def _is_fault(warning: Body) -> bool:
-    return warning["code"] in FAULTS

@@ -1,5 +1,6 @@
 """The service as its client sees it: one question, asked again where that can help."""
 
+import os
 import random
 import time
 from typing import Any, Self
@@ -10,6 +11,9 @@ TRIES = 5
 FIRST_PAUSE = 0.2
 """Before a lost connection is tried again, s. Each pause is twice the last, varied at random."""
 LONGEST_WAIT = 60.0
+"""A service that asks for more patience than this is given up, s."""
+AGAIN = {408, 429, 502, 503, 504}
+"""Statuses after which the same request may be answered; after a 500 once."""
 BEYOND_THE_TIME_LIMIT = 5.0
 """How much longer than its planning a call may take, s: these simulations keep all cores busy."""
 DEFAULT_LIMIT_MS = 1000
@@ -22,10 +26,15 @@ class Refused(Exception):
     """An answer that asking again does not change: its status and its problem."""
 
     def __init__(self, status: int, problem: Any) -> None:
-        title = problem.get("title") if isinstance(problem, dict) else None
-        super().__init__(title or f"status {status}")
+        super().__init__(status, problem)
         self.status = status
-        self.faults: list[dict[str, str]] = problem.get("errors", []) if isinstance(problem, dict) else []
+        self.problem: Body = problem if isinstance(problem, dict) else {}
+
+    def __str__(self) -> str:
+        """The title, and each fault in a line of its own."""
+        title = self.problem.get("title") or f"The service answers with status {self.status}"
+        faults = [f"{fault['code']} {fault['pointer']}: {fault['detail']}" for fault in self.problem.get("errors", [])]
+        return "\n".join([title, *faults])
 
 
 class GaveUp(Exception):
@@ -33,9 +42,10 @@ class GaveUp(Exception):
 
 
 class Service:
-    """Counts its calls and their time, s."""
+    """Counts its calls and their time, s. Sends the key of `SINGULATE_KEY`, if there is one."""
 
-    def __init__(self, url: str, key: str | None = None, transport: httpx.BaseTransport | None = None) -> None:
+    def __init__(self, url: str, transport: httpx.BaseTransport | None = None) -> None:
+        key = os.environ.get("SINGULATE_KEY")
         headers = {"authorization": f"Bearer {key}"} if key else {}
         self._client = httpx.Client(base_url=url, headers=headers, trust_env=False, transport=transport)
         self.plans = self.verifications = 0
@@ -66,10 +76,6 @@ class Service:
     def survey(self, scene: Body) -> Body:
         return self._ask("/v1/survey", scene, _limit(scene))
 
-    def version(self) -> Body:
-        answer: Body = self._client.get("/version").raise_for_status().json()
-        return answer
-
     def _ask(self, path: str, body: Body, limit_ms: int) -> Body:
         """Asking again is safe: none of these calls changes anything on the server."""
         reason = ""
@@ -85,21 +91,25 @@ class Service:
                     answer: Body = response.json()
                     return answer
                 problem = _decoded(response)
-                if response.status_code not in (408, 429, 502, 503, 504):
+                again = response.status_code in AGAIN or (response.status_code == 500 and tried == 0)
+                if not again or (waits := _retry_after(response)) > LONGEST_WAIT:
                     raise Refused(response.status_code, problem)
-                reason, pause = str(Refused(response.status_code, problem)), _retry_after(response)
+                reason, pause = str(Refused(response.status_code, problem)), waits
             if tried + 1 < TRIES:
                 time.sleep(pause)
         raise GaveUp(reason)
 
 
 def _limit(scene: Body) -> int:
-    return int(scene.get("settings", {}).get("time_limit_ms", DEFAULT_LIMIT_MS))
+    """Whether it is in order is for the service to say."""
+    settings = scene.get("settings") if isinstance(scene, dict) else None
+    named = settings.get("time_limit_ms") if isinstance(settings, dict) else None
+    return named if isinstance(named, int) and 0 <= named <= LONGEST_LIMIT_MS else DEFAULT_LIMIT_MS
 
 
 def _retry_after(response: httpx.Response) -> float:
     header = response.headers.get("retry-after", "")
-    return min(float(header), LONGEST_WAIT) if header.isdecimal() else 1.0
+    return float(header) if header.isdecimal() else 1.0
 
 
 def _decoded(response: httpx.Response) -> Any:

@@ -1,8 +1,9 @@
 """Episodes in other processes: each is a task of plain figures, so that the same task gives the same episode."""
 
-import os
+import signal
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import Any
@@ -10,13 +11,14 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from ..client.controller import Controller
+from ..client.service import Service
 from ..physics.camera import Camera
 from ..physics.cell import Cell, Watcher
-from ..client.controller import Controller
 from ..physics.gantry import Gantry
 from ..physics.mechanism import Mechanism
-from ..client.service import Service
 from ..physics.world import Scene, build
+
 
 @dataclass(frozen=True)
 class Task:
@@ -50,7 +52,7 @@ def run(task: Task, watch: Watcher | None = None) -> dict[str, Any]:
     scene = task.scene
     cell = Cell(build(scene, mechanism(task.mechanism, scene["table"])), watch)
     camera = Camera(cell.world, task.sigma, np.random.default_rng(task.seed))
-    with Service(task.url, os.environ.get("SINGULATE_KEY")) as service:
+    with Service(task.url) as service:
         controller = Controller(
             service, cell, camera, position_tolerance=task.position_tolerance, trusting=task.trusting
         )
@@ -64,6 +66,17 @@ def each(tasks: list[Task], jobs: int, what: str) -> Iterator[dict[str, Any]]:
         yield from tqdm(pool.map(run, tasks), total=len(tasks), desc=what, unit="episode", leave=False, disable=None)
 
 
-def workers(jobs: int) -> ProcessPoolExecutor:
+@contextmanager
+def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes that end with what they are needed for, early or not."""
     # A process that is forked keeps the renderer's and the solver's threads in a state that they don't survive.
-    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
+    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_leave_interrupts)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _leave_interrupts() -> None:
+    """Ctrl-C goes to every process of a terminal. The one that started the others ends them."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,19 +1,18 @@
 """One episode as PNG frames and an animated picture, without a screen."""
 
 import argparse
-import json
 from pathlib import Path
 
 import mujoco
 import numpy as np
 from PIL import Image
 
-from .episodes import Task, run
-from ..physics.judge import Phase
-from .server import generate
 from ..client.service import Service
+from ..physics.judge import Phase
 from ..physics.world import World, dish
 from . import Figures, own_scene
+from .episodes import Task, run
+from .server import generate
 
 OBJECTS = 20
 SIZE = (480, 300)
@@ -23,18 +22,20 @@ RATE = 10
 FASTER = 4
 """How much faster than in the cell things happen in the picture."""
 COLOURS = 64
+SUFFIXES = (".gif", ".webp", ".png")
+"""Of animated pictures."""
 RED, ORANGE = [0.85, 0.2, 0.15, 1], [0.95, 0.6, 0.2, 1]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", type=Path, nargs="?", help="a scene (default: a generated one)")
     parser.add_argument("--frames", type=Path, help="a folder for the frames")
-    parser.add_argument("--picture", type=Path, default=Path("film.gif"), help="(default: film.gif)")
+    parser.add_argument("--picture", type=_picture, default=Path("film.gif"), help="(default: film.gif)")
     own_scene.add_cell_arguments(parser)
 
 
 def measure(options: argparse.Namespace, url: str) -> Figures:
-    scene = json.loads(options.scene.read_text(encoding="utf-8")) if options.scene else _generated(url)
+    scene = own_scene.read(options.scene, url) if options.scene else _generated(url)
     film = Film()
     figures = run(Task(url, scene, options.mechanism, options.sigma, options.seed), film.see)
     if options.frames:
@@ -45,8 +46,19 @@ def measure(options: argparse.Namespace, url: str) -> Figures:
     return {**figures, "frames": len(film.frames), "picture": str(options.picture)}
 
 
+def status(figures: Figures) -> int:
+    return own_scene.status(figures)
+
+
 def text(figures: Figures) -> str:
     return f"{own_scene.text(figures)}\n{figures['frames']} frames, {figures['picture']}"
+
+
+def _picture(text: str) -> Path:
+    path = Path(text)
+    if path.suffix not in SUFFIXES or not path.absolute().parent.is_dir():
+        raise argparse.ArgumentTypeError(f"{path} can't be written: {' or '.join(SUFFIXES)} in a folder that is there")
+    return path
 
 
 def _generated(url: str) -> Figures:

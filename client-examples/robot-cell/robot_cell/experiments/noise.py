@@ -5,12 +5,13 @@ import copy
 from itertools import product
 
 from ..physics.camera import e_place
+from ..physics.world import Scene
+from . import Figures
+from .arguments import add_jobs, not_negative, positive, whole
 from .episodes import Task, each
 from .server import GREATEST_OVERLAP, generate
 from .tally import tally
 from .text import rows, share
-from ..physics.world import Scene
-from . import Figures
 
 OBJECTS = 20
 SIGMAS = [0.0005, 0.001, 0.002, 0.003, 0.005]
@@ -21,12 +22,15 @@ LEAST_OVERLAP = 0.001
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--episodes", type=int, default=40, help="episodes a cell of the table (default: 40)")
-    parser.add_argument("--seed", type=int, default=0, help="of the first scene (default: 0)")
+    add_jobs(parser)
+    parser.add_argument("--episodes", type=positive, default=100, help="episodes a cell of the table (default: 100)")
+    parser.add_argument("--seed", type=whole, default=0, help="of the first scene (default: 0)")
     lists = {"sigmas": (SIGMAS, "m"), "margins": (MARGINS, "m"), "yaw-tolerances": (YAW_TOLERANCES, "rad")}
     for name, (values, unit) in lists.items():
         default = " ".join(f"{value:g}" for value in values)
-        parser.add_argument(f"--{name}", type=float, nargs="+", default=values, help=f"{unit} (default: {default})")
+        parser.add_argument(
+            f"--{name}", type=not_negative, nargs="+", default=values, help=f"{unit} (default: {default})"
+        )
 
 
 def measure(options: argparse.Namespace, url: str) -> Figures:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..physics.world import Scene
 from . import Figures
+from .arguments import add_jobs, positive, whole
 from .episodes import Task, each
 from .server import generate
 from .text import rows, share
@@ -20,8 +21,9 @@ LENGTHS = [0.07, 0.09, 0.11, 0.13]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--episodes", type=int, default=60, help="of each length (default: 60)")
-    parser.add_argument("--seed", type=int, default=0, help="of the first scene (default: 0)")
+    add_jobs(parser)
+    parser.add_argument("--episodes", type=positive, default=60, help="of each length (default: 60)")
+    parser.add_argument("--seed", type=whole, default=0, help="of the first scene (default: 0)")
 
 
 def measure(options: argparse.Namespace, url: str) -> Figures:
@@ -52,7 +54,5 @@ def meets_palm(step: dict[str, Any]) -> bool:
 
 
 def text(figures: Figures) -> str:
-    body = [
-        [f"{1e3 * row['finger_length']:g} mm", share(row["palm_meets"], row["steps"])] for row in figures["rows"]
-    ]
+    body = [[f"{1e3 * row['finger_length']:g} mm", share(row["palm_meets"], row["steps"])] for row in figures["rows"]]
     return rows(["fingers", "steps in which the palm meets a neighbour"], body)

@@ -8,13 +8,14 @@ from itertools import count
 
 from tqdm import tqdm
 
-from .episodes import Task, run, workers
-from ..physics.robotiq import CLEARANCE, FINGER_WIDTH, TALLEST
-from .server import generate
 from ..client.service import Service
-from .tally import is_clean, tally
+from ..physics.robotiq import CLEARANCE, FINGER_WIDTH, TALLEST
 from ..physics.world import HEIGHT, Scene
 from . import Figures
+from .arguments import add_jobs, positive, whole
+from .episodes import Task, run, workers
+from .server import generate
+from .tally import is_clean, tally
 
 JAWS = {"fingers": "2", "finger_width": str(FINGER_WIDTH), "clearance": str(CLEARANCE)}
 
@@ -42,15 +43,19 @@ SEEDS = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--count", type=int, default=1000, help="relocations to carry out (default: 1000)")
-    parser.add_argument("--seed", type=int, default=0, help="of the first scene of each kind (default: 0)")
+    add_jobs(parser)
+    parser.add_argument("--count", type=positive, default=1000, help="relocations to carry out (default: 1000)")
+    parser.add_argument("--seed", type=whole, default=0, help="of the first scene of each kind (default: 0)")
 
 
 def measure(options: argparse.Namespace, url: str) -> Figures:
     kinds: list[str] = []
     episodes: list[Figures] = []
     relocations = 0
-    with tqdm(total=options.count, desc="relocations", leave=False, disable=None) as bar, closing(episodes_of(options, url)) as drawn:
+    with (
+        tqdm(total=options.count, desc="relocations", leave=False, disable=None) as bar,
+        closing(episodes_of(options, url)) as drawn,
+    ):
         for kind, episode in drawn:
             kinds.append(kind)
             episodes.append(episode)

@@ -7,7 +7,6 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from ..physics.world import Scene
@@ -18,13 +17,9 @@ GREATEST_OVERLAP = 0.05
 """The service admits scenes whose dishes seem to overlap by so much, m: at a sigma of 5 mm two centres differ by 30 mm."""
 
 
-def binary() -> Path:
-    """The program of the service: `SINGULATE`, or what `cargo build --release` has made."""
-    named = os.environ.get("SINGULATE")
-    path = Path(named) if named else Path(__file__).resolve().parents[4] / "target/release/singulate"
-    if not path.is_file():
-        raise FileNotFoundError(f"{path} is not there: build it by `cargo build --release`, or name it in SINGULATE")
-    return path
+def binary() -> str:
+    """The program of the service. `run` names it."""
+    return os.environ["SINGULATE"]
 
 
 @contextmanager
@@ -33,9 +28,11 @@ def service() -> Iterator[str]:
     if named := os.environ.get("SINGULATE_URL"):
         yield named
         return
-    command = [str(binary()), "serve", "--listen", "127.0.0.1:0", "--insecure", "--log", "warn"]
+    command = [binary(), "serve", "--listen", "127.0.0.1:0", "--insecure", "--log", "warn"]
     command += ["--jobs-url", "sqlite::memory:", "--max-overlap-tolerance", str(GREATEST_OVERLAP)]
-    with tempfile.TemporaryFile("w+") as said, subprocess.Popen(command, stdout=said, env=_environment()) as server:
+    said = tempfile.TemporaryFile("w+")
+    # In a session of its own: Ctrl-C is for this program, which then ends the service.
+    with said, subprocess.Popen(command, stdout=said, env=_environment(), start_new_session=True) as server:
         try:
             yield _address(said, server)
         finally:
@@ -57,7 +54,7 @@ def _address(said: Any, server: subprocess.Popen[bytes]) -> str:
 
 def generate(objects: int, seed: int, **recipe: str) -> Scene:
     """A scene of `singulate generate`, with more of its flags in `recipe`. The same seed gives the same scene."""
-    command = [str(binary()), "generate", "--objects", str(objects), "--seed", str(seed)]
+    command = [binary(), "generate", "--objects", str(objects), "--seed", str(seed)]
     for flag, values in recipe.items():
         command += [f"--{flag.replace('_', '-')}", *values.split()]
     made = subprocess.run(command, capture_output=True, text=True, check=True, env=_environment())

@@ -3,13 +3,14 @@
 import argparse
 from typing import Any
 
-from .episodes import Task, each
-from .server import generate
 from ..client.service import Service
-from .tally import tally
-from .text import rows, share
 from ..physics.world import Scene
 from . import Figures
+from .arguments import add_jobs, positive, whole
+from .episodes import Task, each
+from .server import generate
+from .tally import tally
+from .text import rows, share
 
 COLUMNS = {16: 0, 18: 1, 20: 2}
 """N, and which column of Table I it is."""
@@ -29,8 +30,11 @@ PAPER = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--episodes", type=int, default=10, help="episodes a column that are no deadlock (default: 10)")
-    parser.add_argument("--seed", type=int, default=0, help="that of `singulate experiment table1` (default: 0)")
+    add_jobs(parser)
+    parser.add_argument(
+        "--episodes", type=positive, default=10, help="episodes a column that are no deadlock (default: 10)"
+    )
+    parser.add_argument("--seed", type=whole, default=0, help="that of `singulate experiment table1` (default: 0)")
     parser.add_argument("--mechanism", choices=["arm", "gantry"], default="arm", help="what carries the hand")
 
 
@@ -94,7 +98,18 @@ def mean(values: Any) -> float | None:
 
 
 def text(figures: Figures) -> str:
-    head = ["N", "methods", "deadlocks", "success", "clean", "planning", "in the service", "execution", "relocations", "out of reach"]
+    head = [
+        "N",
+        "methods",
+        "deadlocks",
+        "success",
+        "clean",
+        "planning",
+        "in the service",
+        "execution",
+        "relocations",
+        "out of reach",
+    ]
     body = [
         [
             str(column["objects"]),

@@ -5,8 +5,8 @@ from typing import Any
 
 from .interval import wilson
 
-NO_PLAN = ("deadlock", "no_space", "timed_out")
-APART = ("out_of_reach",)
+APART = ("deadlock", "no_space", "out_of_reach")
+"""Ends that are no fault of the plan or of the robot, as long as nothing was hit or dropped before."""
 Episode = dict[str, Any]
 
 
@@ -14,15 +14,29 @@ def contacts(episode: Episode) -> list[dict[str, Any]]:
     return [contact for step in episode["steps"] for contact in step["contacts"]]
 
 
+def is_press(contact: dict[str, Any]) -> bool:
+    """A closing hand pulls its dish to where it was seen, against a near neighbour, and lifts it along that. No margin
+    prevents that."""
+    return bool(contact["part"] == "dish" and contact["phase"] in ("closing", "lifting"))
+
+
 def is_hit(contact: dict[str, Any]) -> bool:
-    """Of the hand or the arm, and harder than a touch."""
-    return contact["part"] != "dish" and not contact["touch"]
+    """Harder than a touch, by hand, arm or the dish in the hand."""
+    return not contact["touch"] and not is_press(contact)
+
+
+def went_wrong(episode: Episode) -> bool:
+    """Something was hit or dropped."""
+    return any(step["dropped"] for step in episode["steps"]) or any(map(is_hit, contacts(episode)))
+
+
+def is_judged(episode: Episode) -> bool:
+    return episode["end"] not in APART or went_wrong(episode)
 
 
 def is_success(episode: Episode) -> bool:
-    """The target in the hand, nothing hit by it, nothing dropped."""
-    dropped = any(step["dropped"] for step in episode["steps"])
-    return episode["end"] == "in_hand" and not dropped and not any(map(is_hit, contacts(episode)))
+    """The target in the hand, nothing hit, nothing dropped."""
+    return episode["end"] == "in_hand" and not went_wrong(episode)
 
 
 def is_clean(episode: Episode) -> bool:
@@ -32,9 +46,9 @@ def is_clean(episode: Episode) -> bool:
 
 
 def tally(episodes: list[Episode]) -> dict[str, Any]:
-    """Counts and rates. Rates are over the episodes that had a plan to the end and were in reach."""
+    """Counts and rates. Rates are over the judged episodes: not over those that ended [`APART`] with nothing gone wrong."""
     ends = Counter(str(episode["end"]) for episode in episodes)
-    judged = [episode for episode in episodes if episode["end"] not in (*NO_PLAN, *APART)]
+    judged = [episode for episode in episodes if is_judged(episode)]
     successes, clean = sum(map(is_success, judged)), sum(map(is_clean, judged))
     steps = [step for episode in episodes for step in episode["steps"]]
     places = sorted(step["place_error"] for step in steps if step["place_error"] is not None)
@@ -46,14 +60,15 @@ def tally(episodes: list[Episode]) -> dict[str, Any]:
         "success_interval": wilson(successes, len(judged)),
         "clean": clean,
         "clean_interval": wilson(clean, len(judged)),
+        "pressed": sum(any(map(is_press, contacts(episode))) for episode in episodes),
         "relocations": len(places),
         "grasps": len(steps),
         "contacts": _by_kind(steps),
         "disturbances": sum(len(step["disturbed"]) for step in steps),
-        "greatest_disturbance": max((way for step in steps for way in step["disturbed"].values()), default=0.0),
         "drops": sum(step["dropped"] for step in steps),
         "place_error_mean": sum(places) / len(places) if places else None,
         "place_error_max": places[-1] if places else None,
+        "pictures": sum(episode["pictures"] for episode in episodes),
         "plans": sum(episode["plans"] for episode in episodes),
         "verifications": sum(episode["verifications"] for episode in episodes),
     }

@@ -2,14 +2,15 @@
 
 import argparse
 
-from ..physics.judge import DEPTH_TOLERANCE
 from ..physics.apart import of_dishes, of_pads
+from ..physics.judge import DEPTH_TOLERANCE
 from . import Figures
+from .arguments import positive, whole
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--pairs", type=int, default=2000, help="of each kind (default: 2000)")
-    parser.add_argument("--seed", type=int, default=0, help="(default: 0)")
+    parser.add_argument("--pairs", type=positive, default=2000, help="of each kind (default: 2000)")
+    parser.add_argument("--seed", type=whole, default=0, help="(default: 0)")
 
 
 def measure(options: argparse.Namespace, _url: str) -> Figures:

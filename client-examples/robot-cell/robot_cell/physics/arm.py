@@ -113,10 +113,6 @@ class Arm:
         self._velocity = np.zeros(len(JOINTS))
         self._held = None
 
-    def present(self) -> ToolPose:
-        """Where the hand is commanded to be."""
-        return ToolPose(*map(float, self._kinematics.pose(self._commanded[FREE])))
-
     def line(self, data: mujoco.MjData, to: ToolPose) -> Motion:
         start = self._kinematics.pose(self._commanded[FREE])
         way = np.array([to.x, to.y, to.z, to.yaw]) - start

@@ -1,6 +1,6 @@
 """A camera over the table: the scene as it sees it, each centre off by a normal error."""
 
-import copy
+from typing import Any
 
 import numpy as np
 
@@ -15,22 +15,37 @@ def e_place(sigma: float) -> float:
     return GREATEST_ERROR * sigma
 
 
+def asked_for(scene: Scene) -> Scene:
+    """The scene as the service takes it. Heights and finger lengths are for the physics alone."""
+    if not isinstance(scene, dict):
+        return scene
+    asked = dict(scene)
+    if isinstance(gripper := scene.get("gripper"), dict):
+        asked["gripper"] = {name: value for name, value in gripper.items() if name != "finger_length"}
+    if isinstance(objects := scene.get("objects"), list):
+        asked["objects"] = [_without_height(item) for item in objects]
+    return asked
+
+
+def _without_height(item: Any) -> Any:
+    if not isinstance(item, dict):
+        return item
+    return {name: value for name, value in item.items() if name != "height"}
+
+
 class Camera:
     """`sigma` is the standard deviation along x and along y, m. Each picture has errors of its own."""
 
     def __init__(self, world: World, sigma: float, random: np.random.Generator) -> None:
         self._world, self._sigma, self._random = world, sigma, random
-        self._pictures = 0
+        self.pictures = 0
 
     def look(self) -> Scene:
-        """The scene as a request, with a new `scene_id`. Heights are for the physics alone: the service takes no such
-        fields."""
-        self._pictures += 1
-        scene = copy.deepcopy(self._world.scene)
-        scene["gripper"].pop("finger_length", None)
-        scene["scene_id"] = f"{scene.get('scene_id', 'cell')}/{self._pictures}"
+        """The scene as a request, with a new `scene_id`."""
+        self.pictures += 1
+        scene = asked_for(self._world.scene)
+        scene["scene_id"] = f"{scene.get('scene_id') or 'cell'}/{self.pictures}"
         for item in scene["objects"]:
             x, y = self._world.place(item["id"])[:2] + self._random.normal(0, 1, 2) * self._sigma
             item["x"], item["y"] = float(x), float(y)
-            item.pop("height", None)
         return scene

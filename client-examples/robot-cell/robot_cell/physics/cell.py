@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from .judge import DISTURBANCE, Contact, Judge, Phase
-from .mechanism import Motion, ToolPose
+from .mechanism import Motion, NoPath, OutOfReach, ToolPose
 from .world import Vector, World
 
 GRASP_HEIGHT = 0.005
@@ -23,8 +23,6 @@ SLIPPED, TILTED = 0.005, 0.1
 """A dish that has moved or leans so far in the hand is dropped, m and rad. So is one that is pushed over the table's edge."""
 
 
-Places = dict[str, Vector]
-
 Watcher = Callable[[World, Phase, str], None]
 """Sees the world, the phase and the dish that the step is about after each step of the physics."""
 
@@ -36,12 +34,15 @@ class Outcome:
     name: str
     contacts: list[Contact] = field(default_factory=list)
     disturbed: dict[str, float] = field(default_factory=dict)
-    """Dishes that the step was not about, and how far they have moved, m."""
+    """Dishes that the step was not about, and how far their foot or their top has moved, m."""
     dropped: bool = False
     place_error: float | None = None
     """Between where the dish was to be and where it is, m."""
     seconds: float = 0.0
     """Of simulated time."""
+    failure: str = ""
+    """`out_of_reach` or `no_path` where the step was not carried out to its end."""
+    detail: str = ""
 
     def to_json(self) -> dict[str, object]:
         return {
@@ -51,6 +52,7 @@ class Outcome:
             "dropped": self.dropped,
             "place_error": self.place_error,
             "seconds": self.seconds,
+            "failure": self.failure,
         }
 
 
@@ -75,27 +77,39 @@ class Cell:
         self._up = world.tallest + ABOVE + GRASP_HEIGHT
         self._watch = watch
         self._wait(REST, Phase.TRAVEL, "")
+        self._stood = world.stands()
+        """Where each dish stands unless something disturbs it."""
 
     def relocate(self, name: str, grasp: Spot, release: Spot) -> Outcome:
-        """Picks the dish up at `grasp` and sets it down at `release`. Raises OutOfReach or NoPath."""
-        outcome, before, began = self._start(name)
-        held_at = self._pick(name, grasp)
-        self._travel(release, name, Phase.CARRYING, name)
-        outcome.dropped = self._slipped(name, held_at)
-        self._set_down(name, release)
-        outcome.place_error = float(np.hypot(*(self.world.place(name)[:2] - (release.x, release.y))))
-        return self._judged(outcome, before, began)
+        """Picks the dish up at `grasp` and sets it down at `release`."""
+        return self._carry_out(name, grasp, release)
 
     def take(self, name: str, grasp: Spot) -> Outcome:
-        """Lifts the target. Raises OutOfReach or NoPath."""
-        outcome, before, began = self._start(name)
-        held_at = self._pick(name, grasp)
-        outcome.dropped = self._slipped(name, held_at)
-        return self._judged(outcome, before, began)
+        """Lifts the target."""
+        return self._carry_out(name, grasp, None)
 
-    def _start(self, name: str) -> tuple[Outcome, Places, float]:
-        self.judge.start()
-        return Outcome(name), self.world.places(), float(self.world.data.time)
+    def _carry_out(self, name: str, grasp: Spot, release: Spot | None) -> Outcome:
+        outcome, began = Outcome(name), float(self.world.data.time)
+        self.judge.start(name)
+        try:
+            self._step(outcome, grasp, release)
+        except OutOfReach as reason:
+            outcome.failure, outcome.detail = "out_of_reach", str(reason)
+        except NoPath as reason:
+            outcome.failure, outcome.detail = "no_path", str(reason)
+        self._judge(outcome)
+        outcome.seconds = float(self.world.data.time) - began
+        return outcome
+
+    def _step(self, outcome: Outcome, grasp: Spot, release: Spot | None) -> None:
+        name = outcome.name
+        held_at = self._pick(name, grasp)
+        if release:
+            self._travel(release, name, Phase.CARRYING, name)
+        outcome.dropped = self._slipped(name, held_at)
+        if release:
+            self._set_down(name, release)
+            outcome.place_error = float(np.hypot(*(self.world.place(name)[:2] - (release.x, release.y))))
 
     def _pick(self, name: str, grasp: Spot) -> Vector:
         """Grasps and lifts the dish. The result is where it stood in the hand before."""
@@ -105,7 +119,7 @@ class Cell:
         self._line(grasp.at(self._low(name)), Phase.DESCENT, name)
         self._open_to(hand.closed_on(radius), Phase.CLOSING, name)
         held_at = self._in_hand(name)
-        self._line(grasp.at(self._up), Phase.CARRYING, name)
+        self._line(grasp.at(self._up), Phase.LIFTING, name)
         return held_at
 
     def _set_down(self, name: str, release: Spot) -> None:
@@ -113,14 +127,17 @@ class Cell:
         self._open_to(self.world.hand.open_for(self.world.radius(name)), Phase.RELEASE, name)
         self._line(release.at(self._up), Phase.ASCENT, name)
 
-    def _judged(self, outcome: Outcome, before: Places, began: float) -> Outcome:
-        after = self.world.places()
-        moved = {name: float(np.hypot(*(after[name] - place)[:2])) for name, place in before.items()}
-        outcome.disturbed = {n: way for n, way in moved.items() if way > DISTURBANCE and n != outcome.name}
-        outcome.dropped |= any(self._is_off_table(place) for place in after.values())
+    def _judge(self, outcome: Outcome) -> None:
+        """What the step did to other dishes. Small pushes of several steps add up."""
+        # After a step of the physics, places are those before it.
+        mujoco.mj_kinematics(self.world.model, self.world.data)
+        now = self.world.stands()
+        moved = {name: float(np.max(np.linalg.norm(now[name] - stood, axis=1))) for name, stood in self._stood.items()}
+        outcome.disturbed = {name: way for name, way in moved.items() if way > DISTURBANCE and name != outcome.name}
+        for name in (outcome.name, *outcome.disturbed):
+            self._stood[name] = now[name]
+        outcome.dropped |= any(self._is_off_table(stand[0]) for stand in now.values())
         outcome.contacts = self.judge.found()
-        outcome.seconds = float(self.world.data.time) - began
-        return outcome
 
     def _is_off_table(self, place: Vector) -> bool:
         """Whether a dish would fall: the table's plane has no edge."""
@@ -172,6 +189,6 @@ class Cell:
     def _tick(self, phase: Phase, name: str) -> None:
         mujoco.mj_step(self.world.model, self.world.data)
         if name:
-            self.judge.look(phase, name)
+            self.judge.look(phase)
         if self._watch:
             self._watch(self.world, phase, name)

@@ -19,7 +19,6 @@ class Checker:
         self._solid = (model.geom_contype | model.geom_conaffinity) != 0
         self._links, self._hand = (_mask(model, geoms) for geoms in (links, hand))
         self._hand_body = model.body("hand").id
-        self.checks = 0
 
     def look(self, data: mujoco.MjData, held: int | None, clearance: float, links_only: bool = False) -> None:
         """Takes the scene as it is now. `held` goes along with the hand as it is in it now, or is left out where only
@@ -54,7 +53,6 @@ class Checker:
 
     def free(self, joints: np.ndarray, share: float = 1.0) -> bool:
         """Whether all keep at least this share of the clearance."""
-        self.checks += 1
         model, data = self._model, self._data
         data.qpos[self._joints] = joints
         mujoco.mj_kinematics(model, data)

@@ -34,14 +34,13 @@ class Gantry:
         self.geoms: set[int] = set()
 
     def add_to(self, spec: mujoco.MjSpec, hand: Hand) -> None:
+        self._fingers = hand.fingers
         carriage = spec.worldbody.add_body(name="gantry", gravcomp=1)
         slide, hinge = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE
         directions = {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1], "yaw": [0, 0, 1]}
         for axis in AXES:
             kind = hinge if axis == "yaw" else slide
-            carriage.add_joint(
-                name=f"gantry_{axis}", type=kind, axis=directions[axis], armature=ARMATURE
-            )
+            carriage.add_joint(name=f"gantry_{axis}", type=kind, axis=directions[axis], armature=ARMATURE)
             drive = spec.add_actuator(name=f"gantry_{axis}", target=f"gantry_{axis}", trntype=mujoco.mjtTrn.mjTRN_JOINT)
             drive.set_to_position(kp=STIFFNESS, kv=DAMPING)
         hand.add_to(spec, carriage)
@@ -65,7 +64,10 @@ class Gantry:
         data.qpos[self._qpos] = data.ctrl[self._ctrl] = self._commanded = self._home
 
     def line(self, data: mujoco.MjData, to: ToolPose) -> Motion:
-        return self._straight(np.array([to.x, to.y, to.z, to.yaw]))
+        way = np.array([to.x, to.y, to.z, to.yaw]) - self._commanded
+        # The nearest of the yaws that look the same.
+        way[3] = math.remainder(way[3], 2 * math.pi / self._fingers)
+        return along(self._commanded, way, duration(way, SPEED, ACCELERATION), self._step)
 
     def travel(self, data: mujoco.MjData, to: ToolPose, held: int | None) -> Motion:
         """Straight, at the height where it is: nothing reaches up there."""
@@ -75,10 +77,6 @@ class Gantry:
         self._commanded = motion.positions[step]
         # The drive's damping pulls back by damping * velocity; it is sent ahead by as much.
         data.ctrl[self._ctrl] = self._commanded + motion.velocities[step] * (DAMPING / STIFFNESS)
-
-    def _straight(self, to: np.ndarray) -> Motion:
-        way = to - self._commanded
-        return along(self._commanded, way, duration(way, SPEED, ACCELERATION), self._step)
 
 
 def duration(way: np.ndarray, speed: np.ndarray, acceleration: np.ndarray) -> float:

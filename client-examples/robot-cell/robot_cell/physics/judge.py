@@ -1,12 +1,13 @@
 """The judge: every contact of the hand, of what carries it or of the dish in it with anything else, at each physics step."""
 
+from collections import defaultdict
 from dataclasses import dataclass
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 
 import mujoco
 import numpy as np
 
-from .world import TABLE, World, dish
+from .world import DISH_FRICTION, TABLE, World, dish, height
 
 DEPTH_TOLERANCE = 1e-6
 """Contacts less deep than this are the simulator's own, m: `run tolerance` measures what it reports where nothing
@@ -22,13 +23,30 @@ class Phase(StrEnum):
     TRAVEL = "travel"
     DESCENT = "descent"
     CLOSING = "closing"
+    LIFTING = "lifting"
     CARRYING = "carrying"
     RELEASE = "release"
     ASCENT = "ascent"
 
 
-HOLDING = {Phase.CLOSING, Phase.CARRYING, Phase.RELEASE}
+HOLDING = {Phase.CLOSING, Phase.LIFTING, Phase.CARRYING, Phase.RELEASE}
 """Where pads may touch the dish, and the dish the table."""
+
+
+class Part(IntEnum):
+    """Whose a geom is. `DISH` is the one in the hand; all that stands on the table is `OTHER`, and so is the table."""
+
+    OTHER = 0
+    FINGER = 1
+    PALM = 2
+    ARM = 3
+    DISH = 4
+
+
+ALLOWED = {(a, b) for a in (Part.FINGER, Part.PALM) for b in (Part.FINGER, Part.PALM)}
+"""Parts that belong together: those of the hand, those of the arm, and pads on their dish."""
+ALLOWED |= {(Part.OTHER, Part.OTHER), (Part.ARM, Part.ARM), (Part.FINGER, Part.DISH), (Part.DISH, Part.FINGER)}
+IS_ALLOWED = np.array([[(a, b) in ALLOWED for b in Part] for a in Part])
 
 
 @dataclass
@@ -39,13 +57,13 @@ class Contact:
     part: str
     """`finger`, `palm`, `arm`, or `dish` for the one in the hand."""
     other: str
-    """The id of a dish, or `table`."""
+    """The id of a dish, or `table`; a part, where two of them meet."""
     depth: float
     """m."""
     force: float
-    """Along the normal, N."""
+    """Along the normals, N: the sum over all points of one step."""
     holds: float
-    """The force up to which it is a touch, N: what the dish's friction on the table holds against."""
+    """The force up to which it is a touch, N: what neither slides nor tips the dish."""
 
     @property
     def is_touch(self) -> bool:
@@ -67,60 +85,64 @@ class Judge:
     def __init__(self, world: World) -> None:
         self._world = world
         model = world.model
-        self._part = [""] * model.ngeom
+        self._own = np.zeros(model.ngeom, dtype=int)
         for geom in range(model.ngeom):
             name = model.geom(geom).name
             if name.startswith("finger"):
-                self._part[geom] = "finger"
+                self._own[geom] = Part.FINGER
             elif name.startswith("palm"):
-                self._part[geom] = "palm"
-        for geom in world.mechanism.geoms:
-            self._part[geom] = "arm"
-        self._ours = np.array([bool(part) for part in self._part])
-        self._pad = np.array([part == "finger" for part in self._part])
+                self._own[geom] = Part.PALM
+        self._own[list(world.mechanism.geoms)] = Part.ARM
         self._table = model.geom(TABLE).id
+        self._holds = {dish(item["id"]): self._firmness(item) for item in world.scene["objects"]}
         self._force = np.zeros(6)
-        self._found: dict[tuple[Phase, str, str], Contact] = {}
 
-    def start(self) -> None:
-        """Forgets what it has seen: a new step of the plan begins."""
-        self._found = {}
+    def start(self, grasped: str) -> None:
+        """A new step of the plan begins, about the dish `grasped`."""
+        self._found: dict[tuple[Phase, str, str], Contact] = {}
+        self._grasped = self._world.model.geom(dish(grasped)).id
+        self._holding = self._own.copy()
+        self._holding[self._grasped] = Part.DISH
 
     def found(self) -> list[Contact]:
         return list(self._found.values())
 
-    def look(self, phase: Phase, grasped: str) -> None:
-        """Looks at the contacts of this physics step. `grasped` is the dish that the step is about."""
+    def look(self, phase: Phase) -> None:
+        """Looks at the contacts of this physics step."""
         data = self._world.data
         if not data.ncon:
             return
-        pairs, depths = data.contact.geom, -data.contact.dist
-        ours = self._ours.copy()
-        geom = self._world.model.geom(dish(grasped)).id
-        if phase in HOLDING:
-            ours[geom] = True
-        one, other = ours[pairs[:, 0]], ours[pairs[:, 1]]
-        meets = (one != other) & (depths > DEPTH_TOLERANCE)
+        parts = self._holding if phase in HOLDING else self._own
+        pairs = data.contact.geom
+        of_pairs = parts[pairs]
+        meets = ~IS_ALLOWED[of_pairs[:, 0], of_pairs[:, 1]] & (data.contact.dist < -DEPTH_TOLERANCE)
         if not meets.any():
             return
+        forces: defaultdict[tuple[Phase, str, str], float] = defaultdict(float)
         for index in np.flatnonzero(meets):
-            mine, theirs = pairs[index] if one[index] else pairs[index][::-1]
-            if not (phase in HOLDING and mine == geom and theirs == self._table):
-                self._add(phase, int(mine), int(theirs), float(depths[index]), int(index))
+            one, other = sorted(map(int, pairs[index]), key=lambda geom: -parts[geom])
+            if parts[one] == Part.DISH and other == self._table:
+                continue
+            key = (phase, Part(parts[one]).name.lower(), self._name(other, parts[other]))
+            mujoco.mj_contactForce(self._world.model, data, index, self._force)
+            forces[key] += float(self._force[0])
+            self._note(key, other, -float(data.contact.dist[index]), forces[key])
 
-    def _add(self, phase: Phase, mine: int, theirs: int, depth: float, index: int) -> None:
-        world = self._world
-        part = self._part[mine] or "dish"
-        other = world.model.geom(theirs).name.removeprefix("dish:")
-        mujoco.mj_contactForce(world.model, world.data, index, self._force)
-        key = (phase, part, other)
-        contact = self._found.setdefault(key, Contact(phase, part, other, 0.0, 0.0, self._holds(theirs)))
+    def _name(self, geom: int, part: int) -> str:
+        if part != Part.OTHER:
+            return Part(part).name.lower()
+        return str(self._world.model.geom(geom).name.removeprefix("dish:"))
+
+    def _note(self, key: tuple[Phase, str, str], other: int, depth: float, force: float) -> None:
+        holds = self._holds.get(self._world.model.geom(other).name, LIGHT)
+        contact = self._found.setdefault(key, Contact(*key, 0.0, 0.0, holds))
         contact.depth = max(contact.depth, depth)
-        contact.force = max(contact.force, float(self._force[0]))
+        contact.force = max(contact.force, force)
 
-    def _holds(self, geom: int) -> float:
-        model = self._world.model
-        body = model.geom_bodyid[geom]
-        if model.body_dofnum[body] == 0:
+    def _firmness(self, item: dict[str, object]) -> float:
+        """The force at its top that a dish stands: beyond it it slides, or tips if it is slender."""
+        if item.get("fixed"):
             return LIGHT
-        return float(model.geom_friction[geom][0] * model.body_mass[body] * GRAVITY)
+        body = self._world.dishes[str(item["id"])]
+        slender = self._world.radius(str(item["id"])) / height(item)
+        return float(self._world.model.body_mass[body] * GRAVITY * min(DISH_FRICTION, slender))

@@ -93,7 +93,8 @@ class Kinematics:
         up = z + self.drop - self.base[2] - self.shoulder
         cosine = (out**2 + up**2 - self.upper**2 - self.fore**2) / (2 * self.upper * self.fore)
         if np.any(np.abs(cosine) > math.cos(SLACK)) or np.any(out <= 0):
-            raise OutOfReach(f"the arm is too short or too long for {np.round(poses, 3).tolist()}")
+            x, y, z = np.atleast_2d(poses)[-1][:3]
+            raise OutOfReach(f"the arm does not reach x {x:.3f}, y {y:.3f}, {z:.3f} m above the table")
         elbow = np.arccos(cosine)
         first = np.arctan2(out, up) - np.arctan2(self.fore * np.sin(elbow), self.upper + self.fore * np.cos(elbow))
         return np.stack([pan, first - math.pi / 2, elbow, pan + self.facing - math.pi / 2 - yaw], axis=-1)

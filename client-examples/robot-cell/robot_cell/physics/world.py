@@ -16,6 +16,8 @@ STEP = 0.002
 """Of the physics, s."""
 HEIGHT = 0.08
 """Of a dish that says nothing about it, m."""
+LENGTHS = 0.005, 0.5
+"""Heights of dishes and lengths of fingers, m."""
 DENSITY = 200.0
 """Of a dish, kg/m³: 0.28 kg for one of 150 mm. Dishes are hollow, these cylinders are not."""
 DISH_FRICTION = 0.5
@@ -24,6 +26,7 @@ TABLE_THICKNESS = 0.04
 TABLE = "table"
 
 Vector = npt.NDArray[np.float64]
+Matrix = npt.NDArray[np.float64]
 Scene = dict[str, Any]
 """The body of `POST /v1/plans`."""
 
@@ -47,8 +50,13 @@ class World:
         """Where a dish stands: x, y, z of its centre's foot, m."""
         return np.array(self.data.xpos[self.dishes[name]])
 
-    def places(self) -> dict[str, Vector]:
-        return {name: self.place(name) for name in self.dishes}
+    def stands(self) -> dict[str, Matrix]:
+        """Of each dish the middle of its foot and of its top, m: an array of shape (2, 3)."""
+        up = {item["id"]: height(item) for item in self.scene["objects"]}
+        return {
+            name: np.array([self.data.xpos[body], self.data.xpos[body] + up[name] * self.data.xmat[body][2::3]])
+            for name, body in self.dishes.items()
+        }
 
     def radius(self, name: str) -> float:
         return float(next(item["radius"] for item in self.scene["objects"] if item["id"] == name))
@@ -64,7 +72,16 @@ def dish(name: str) -> str:
 
 
 def height(item: dict[str, Any]) -> float:
-    return float(item.get("height", HEIGHT))
+    return _length(item, "height", HEIGHT)
+
+
+def _length(item: dict[str, Any], field: str, default: float) -> float:
+    """A field for the physics alone. Raises ValueError."""
+    least, greatest = LENGTHS
+    value = item.get(field, default)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= greatest:
+        raise ValueError(f"a {field} is {least:g} to {greatest:g} m, not {value!r}")
+    return float(value)
 
 
 def build(scene: Scene, mechanism: Mechanism) -> World:
@@ -94,9 +111,9 @@ def hand_for(scene: Scene) -> Hand:
     tallest = max(height(item) for item in scene["objects"])
     if gripper["fingers"] == 2:
         return Robotiq(gripper, tallest)
-    length = gripper.get("finger_length", tallest + PALM_ABOVE)
+    length = _length(gripper, "finger_length", tallest + PALM_ABOVE)
     reach = max(item["radius"] for item in scene["objects"]) + gripper["clearance"]
-    return CentricHand(gripper["fingers"], gripper["finger_width"], gripper["clearance"], length, reach)
+    return CentricHand(int(gripper["fingers"]), gripper["finger_width"], gripper["clearance"], length, reach)
 
 
 def _set_options(spec: mujoco.MjSpec) -> None:
@@ -166,4 +183,3 @@ def _add_dish(spec: mujoco.MjSpec, item: dict[str, Any]) -> None:
         friction=[DISH_FRICTION, 0.005, 0.0001],
         rgba=[0.35, 0.35, 0.35, 1] if item.get("fixed") else [0.93, 0.93, 0.9, 1],
     )
-
