@@ -67,8 +67,8 @@ fn noisy(margins: &[(f64, u32, u32)]) -> Noise {
         serde_json::json!({
             "sigma": 0.001, "margin": margin / 1e3, "yaw_tolerance": 0.0, "episodes": 100 + deadlocks,
             "ends": {"in_hand": 100, "deadlock": deadlocks}, "judged": 100, "success": success, "clean": success,
-            "relocations": 50, "grasps": 150, "contacts": {"closing": {"dish touch": 3}}, "disturbances": 0, "drops": 0,
-            "place_error_mean": 1e-05, "place_error_max": null, "plans": 150, "verifications": 0,
+            "pressed": 3, "relocations": 50, "grasps": 150, "contacts": {"release": {"finger touch": 3}}, "disturbances": 0,
+            "drops": 0, "place_error_mean": 1e-05, "place_error_max": null, "pictures": 150, "plans": 150, "verifications": 0,
         })
     };
     let cells: Vec<_> = margins.iter().map(cell).collect();
@@ -82,7 +82,8 @@ fn an_arms_troubles_are_counted_apart_and_its_name_is_told() {
         "objects": 16, "method": "paper", "deadlocks_passed_over": 4, "planning_s_mean": 0.02, "service_s_mean": 0.001,
         "execution_s_mean": null, "faulty_plans": 2, "paper": {"success": 1.0, "planning_s": 2.82, "execution_s": 77.99},
         "episodes": 10, "ends": {"gave_up": 1, "in_hand": 6, "no_path": 1, "out_of_reach": 2}, "judged": 8, "success": 5,
-        "clean": 4, "relocations": 9, "grasps": 15, "disturbances": 3, "drops": 1, "plans": 20, "verifications": 0,
+        "clean": 4, "pressed": 1, "relocations": 9, "grasps": 15, "disturbances": 3, "drops": 1, "pictures": 20, "plans": 20,
+        "verifications": 0,
         "contacts": {"closing": {"dish touch": 1}, "descent": {"finger hit": 2, "finger touch": 1}},
         "place_error_mean": null, "place_error_max": null,
     });
@@ -93,9 +94,9 @@ fn an_arms_troubles_are_counted_apart_and_its_name_is_told() {
     let figures: robot::Table3 = serde_json::from_str(&run.to_string()).expect("a run as it is written");
     let text = robot_page::table3(&figures);
     let methods = "the paper's methods, in our code";
-    let outcome = "8 of 10 | 62.5 % (31 to 86) | 50 % (22 to 78) | 20.0 ms | 1.00 ms | –";
+    let outcome = "8 of 10 | 62.5 % (31 to 86) | 50 % (22 to 78) | 20.0 ms | 1.00 ms | – | 0.90";
     let collisions = "closing: dish touch 1; descent: finger hit 2, finger touch 1";
-    assert!(text.contains("| 16 | the paper | – | 100 % | – | 2.82 s | – | 78.0 s |"), "{text}");
+    assert!(text.contains("| 16 | the paper | – | 100 % | – | 2.82 s | – | 78.0 s | – |"), "{text}");
     assert!(text.contains(&format!("|  | {methods} | {outcome} |")), "{text}");
     let troubles = format!("| 16 | {methods} | 4 | 2 | 1 | 0 | `gave_up` 1 | {collisions} | 3 | 1 | 2 |");
     assert!(text.contains(&troubles) && text.contains("UR10e") && text.contains("OMPL 2 "), "{text}");
@@ -105,11 +106,11 @@ fn an_arms_troubles_are_counted_apart_and_its_name_is_told() {
 fn a_margin_is_enough_only_if_all_larger_ones_are() {
     let figures = noisy(&[(0.0, 80, 0), (1.0, 99, 5), (2.0, 98, 10), (3.0, 99, 25), (4.0, 100, 60)]);
     let text = noise_page::noise(&figures);
-    let row = "| 1 mm | 3 mm | 99 % (95 to 100) | 20 % (14 to 28) | 0 % (0 to 4) | 0.40 | 0.50 |";
+    let row = "| 1 mm | 0 rad | 3 mm | 99 % (95 to 100) | 20 % (14 to 28) | 0 % (0 to 4) | 0.40 | 0.50 |";
     assert!(text.contains(row) && text.contains("Some margin is enough for each σ."), "{text}");
-    assert!(text.contains("| 1 mm | 750 | 0 (0 %) | 15 (2 %) | 250 |"), "{text}");
+    assert!(text.contains("| 1 mm | 4 mm | 160 | 3 (1.9 %) | 50 | 0 (0 %) | 3 (6 %) |"), "{text}");
     let text = noise_page::noise(&noisy(&[(0.0, 100, 0), (1.0, 98, 5)]));
-    assert!(text.contains("| 1 mm | none | – | – | 0 % (0 to 4) | – | 0.50 |"), "{text}");
+    assert!(text.contains("| 1 mm | 0 rad | none | – | – | 0 % (0 to 4) | – | 0.50 |"), "{text}");
     assert!(text.contains("No margin holds 99 % for a σ of 1 mm."), "{text}");
 }
 

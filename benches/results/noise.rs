@@ -46,13 +46,27 @@ impl Noise {
         Pool(self.cells.iter().filter(|cell| chosen(&cell.of)).map(|cell| &cell.tally).collect())
     }
 
-    /// The least margin that is enough in the cells that are chosen, as is every larger one.
-    pub(crate) fn least_margin(&self, chosen: impl Fn(&Cell) -> bool) -> Option<f64> {
+    /// Each sigma with each yaw tolerance.
+    pub(crate) fn series(&self) -> Vec<(f64, f64)> {
+        let tolerances = self.values(|cell| cell.yaw_tolerance);
+        let with = |sigma: f64| tolerances.iter().map(move |&tolerance| (sigma, tolerance));
+        self.values(|cell| cell.sigma).into_iter().flat_map(with).collect()
+    }
+
+    /// The least margin that is enough for this sigma with this yaw tolerance, as is every larger one.
+    pub(crate) fn least_margin(&self, sigma: f64, yaw_tolerance: f64) -> Option<f64> {
         let enough = |margin: &f64| {
-            let pool = self.pool(|cell| chosen(cell) && cell.margin == *margin);
+            let pool = self.pool(|cell| cell.is(sigma, yaw_tolerance, *margin));
             pool.success_rate().is_some_and(|rate| rate >= ENOUGH)
         };
         self.values(|cell| cell.margin).into_iter().rev().take_while(enough).last()
+    }
+}
+
+impl Cell {
+    /// True for the cell with these.
+    pub(crate) fn is(&self, sigma: f64, yaw_tolerance: f64, margin: f64) -> bool {
+        (self.sigma, self.yaw_tolerance, self.margin) == (sigma, yaw_tolerance, margin)
     }
 }
 

@@ -25,19 +25,21 @@ pub(crate) struct Tally {
     pub(crate) episodes: u32,
     /// How many ended how.
     pub(crate) ends: BTreeMap<String, u32>,
-    /// Episodes that had a plan to the end and were in reach.
+    /// All but those that ended in a deadlock, without space or out of reach with nothing hit or dropped before.
     pub(crate) judged: u32,
     pub(crate) success: u32,
     pub(crate) clean: u32,
+    /// Episodes in which a closing hand pressed its dish against another one.
+    pub(crate) pressed: u32,
     pub(crate) relocations: u32,
-    /// Those of relocations and those of targets.
-    pub(crate) grasps: u32,
     /// Steps with a contact, by phase and by what met what.
     pub(crate) contacts: BTreeMap<String, BTreeMap<String, u32>>,
     pub(crate) disturbances: u32,
     pub(crate) drops: u32,
     pub(crate) place_error_mean: Option<f64>,
     pub(crate) place_error_max: Option<f64>,
+    /// Pictures of the camera, those of refused scenes included.
+    pub(crate) pictures: u32,
     pub(crate) plans: u32,
     pub(crate) verifications: u32,
 }

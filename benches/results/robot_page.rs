@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::markdown::{count, length, millimetres, or_dash, percent, row, share, table, time};
+use crate::markdown::{count, length, millimetres, or_dash, percent, ratio, row, share, table, time};
 use crate::robot::{Apart, Column3, Hand, Palm, Relocations, Table3, Tallied, Tally, Tolerance};
 
 /// The ends that have a column, and that of a success.
@@ -16,12 +16,12 @@ pub(crate) fn table3(figures: &Table3) -> String {
          each N and each set of methods. {} Scenes and targets are those of Table I. A scene that the methods call a \
          deadlock is passed over, so each set has scenes of its own. The paper's methods in our code are the sector model, \
          LOBS and the raster. Their plans are carried out even where our checker finds a fault in them.\n\n\
-         Success is a target in the hand, with nothing hit by hand or arm, and nothing dropped. A contact that is too light \
-         to move what it meets is a touch and no hit. An episode is clean if it is a success without any contact, touches \
-         and those of the held dish included, and if no other dish is moved by more than 1 mm. Rates are over the judged \
-         episodes, with their 95 % intervals (Wilson). Not judged, and counted apart, are episodes in which something is out of \
-         the arm's reach, and episodes that end without a plan. No path is a failure: the arm reaches both ends of a way, but \
-         does not find it.\n\n\
+         Success is a target in the hand, with nothing hit by hand, arm or the dish in the hand, and nothing dropped. A contact \
+         that is too light to move what it meets is a touch and no hit. What a dish meets while the hand closes on it and lifts \
+         it is a press and no hit: the hand pulls the dish to where it was seen, and no margin prevents that. An episode is clean \
+         if it is a success without touches, presses and disturbances. Rates are over the judged episodes, with their 95 % \
+         intervals (Wilson). Not judged are episodes that end in a deadlock, without space or out of the arm's reach, unless \
+         something was hit or dropped before. No path is a failure: the arm reaches both ends of a way, but does not find it.\n\n\
          The controller plans anew after each step. Planning time is that of all calls of an episode, as the client waits \
          for them; beside it is what the service counts itself. Execution time is simulated. All three are means over all \
          episodes, those that ended early included.\n\n{}\n\
@@ -54,19 +54,29 @@ fn methods(column: &Column3) -> &'static str {
 
 /// A row for what the paper prints, before the rows of each N.
 fn outcomes(figures: &Table3) -> Vec<Vec<String>> {
-    let head = ["N", "whose", "judged", "success", "clean", "planning time", "in the service", "execution time"];
-    let mut rows = vec![row(head)];
+    let mut rows = vec![row([
+        "N",
+        "whose",
+        "judged",
+        "success",
+        "clean",
+        "planning time",
+        "in the service",
+        "execution time",
+        "relocations an episode",
+    ])];
     let mut last = None;
     for Tallied { of, tally } in &figures.columns {
         if last.replace(of.objects) != Some(of.objects) {
             let [n, success] = [of.objects.to_string(), percent(of.paper.success)];
             let [planning, execution] = [of.paper.planning_s, of.paper.execution_s].map(time);
-            rows.push(row([&n, "the paper", "–", &success, "–", &planning, "–", &execution]));
+            rows.push(row([&n, "the paper", "–", &success, "–", &planning, "–", &execution, "–"]));
         }
         let mut cells = row(["", methods(of), &format!("{} of {}", tally.judged, tally.episodes)]);
         cells.extend([tally.success, tally.clean].map(|part| share(part, tally.judged)));
         let times = [of.planning_s_mean, of.service_s_mean, of.execution_s_mean];
         cells.extend(times.map(|seconds| or_dash(seconds, time)));
+        cells.push(per_episode(tally, tally.relocations));
         rows.push(cells);
     }
     rows
@@ -110,6 +120,11 @@ pub(crate) fn collisions(tally: &Tally) -> String {
         format!("{phase}: {}", kinds.join(", "))
     };
     listed(tally.contacts.iter().map(of_phase).collect(), "; ")
+}
+
+/// A count over the episodes.
+pub(crate) fn per_episode(tally: &Tally, whole: u32) -> String {
+    or_dash(ratio(whole, tally.episodes), |mean| format!("{mean:.2}"))
 }
 
 fn listed(words: Vec<String>, between: &str) -> String {
