@@ -67,6 +67,7 @@ fn noisy(margins: &[(f64, u32, u32)]) -> Noise {
         serde_json::json!({
             "sigma": 0.001, "margin": margin / 1e3, "yaw_tolerance": 0.0, "episodes": 100 + deadlocks,
             "ends": {"in_hand": 100, "deadlock": deadlocks}, "judged": 100, "success": success, "clean": success,
+            "harmed": 100 - success,
             "pressed": 3, "relocations": 50, "grasps": 150, "contacts": {"release": {"finger touch": 3}}, "disturbances": 0,
             "drops": 0, "place_error_mean": 1e-05, "place_error_max": null, "pictures": 150, "plans": 150, "verifications": 0,
         })
@@ -82,7 +83,7 @@ fn an_arms_troubles_are_counted_apart_and_its_name_is_told() {
         "objects": 16, "method": "paper", "deadlocks_passed_over": 4, "planning_s_mean": 0.02, "service_s_mean": 0.001,
         "execution_s_mean": null, "faulty_plans": 2, "paper": {"success": 1.0, "planning_s": 2.82, "execution_s": 77.99},
         "episodes": 10, "ends": {"gave_up": 1, "in_hand": 6, "no_path": 1, "out_of_reach": 2}, "judged": 8, "success": 5,
-        "clean": 4, "pressed": 1, "relocations": 9, "grasps": 15, "disturbances": 3, "drops": 1, "pictures": 20, "plans": 20,
+        "clean": 4, "harmed": 1, "pressed": 1, "relocations": 9, "grasps": 15, "disturbances": 3, "drops": 1, "pictures": 20, "plans": 20,
         "verifications": 0,
         "contacts": {"closing": {"dish touch": 1}, "descent": {"finger hit": 2, "finger touch": 1}},
         "place_error_mean": null, "place_error_max": null,

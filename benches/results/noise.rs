@@ -56,8 +56,8 @@ impl Noise {
     /// The least margin that is enough for this sigma with this yaw tolerance, as is every larger one.
     pub(crate) fn least_margin(&self, sigma: f64, yaw_tolerance: f64) -> Option<f64> {
         let enough = |margin: &f64| {
-            let pool = self.pool(|cell| cell.is(sigma, yaw_tolerance, *margin));
-            pool.success_rate().is_some_and(|rate| rate >= ENOUGH)
+            let (unharmed, judged) = self.pool(|cell| cell.is(sigma, yaw_tolerance, *margin)).unharmed();
+            ratio(unharmed, judged).is_some_and(|rate| rate >= ENOUGH)
         };
         self.values(|cell| cell.margin).into_iter().rev().take_while(enough).last()
     }
@@ -79,6 +79,12 @@ impl Pool<'_> {
     /// Successes, and the episodes that were judged.
     pub(crate) fn success(&self) -> (u32, u32) {
         (self.sum(|tally| tally.success), self.sum(|tally| tally.judged))
+    }
+
+    /// Judged episodes in which nothing was hit or dropped, and all that were judged.
+    pub(crate) fn unharmed(&self) -> (u32, u32) {
+        let judged = self.sum(|tally| tally.judged);
+        (judged - self.sum(|tally| tally.harmed), judged)
     }
 
     /// `None` where no episode was judged.

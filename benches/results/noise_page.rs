@@ -15,8 +15,9 @@ pub(crate) fn noise(figures: &Noise) -> String {
          ![Success against the margin, a line for each σ](results/noise.svg)\n\n\
          The yaw tolerances are taken together in the picture. The grey line is at {}.\n\n{}\n\
          ### The least margin that is enough\n\n\
-         A margin is enough if it and all larger ones succeed in at least {} of the judged episodes of one yaw tolerance. The \
-         intervals say how sure that is. No plan are episodes that end at a deadlock or without space. Relocations are per \
+         A margin is enough if with it, and with all larger ones of the same yaw tolerance, nothing is hit or dropped in at \
+         least {} of the judged episodes. The intervals say how sure that is. Success asks for more, a target in the hand: now and \
+         then a controller goes in circles, because each new picture shows the target blocked again. No plan are episodes that end at a deadlock or without space. Relocations are per \
          episode, those without a plan included.\n\n{}\n{}\n\
          ### Presses, and fingers that graze at a release\n\n\
          A press is an episode in which the closing hand pushes its dish against another one. Releases are those at which a \
@@ -56,6 +57,11 @@ fn success(pool: &Pool<'_>) -> String {
     share(success, judged)
 }
 
+fn unharmed(pool: &Pool<'_>) -> String {
+    let (unharmed, judged) = pool.unharmed();
+    share(unharmed, judged)
+}
+
 fn without_plan(pool: &Pool<'_>) -> String {
     let (without, episodes) = pool.without_plan();
     share(without, episodes)
@@ -73,7 +79,7 @@ fn enough(figures: &Noise) -> Vec<Vec<String>> {
         "σ",
         "yaw tolerance",
         "least margin",
-        "success there",
+        "nothing hit or dropped there",
         "no plan there",
         &with("no plan"),
         "relocations there",
@@ -87,7 +93,7 @@ fn enough(figures: &Noise) -> Vec<Vec<String>> {
             millimetres(sigma),
             radians(tolerance),
             named(least),
-            there(success),
+            there(unharmed),
             there(without_plan),
             without_plan(&without),
             there(relocations),

@@ -29,6 +29,8 @@ pub(crate) struct Tally {
     pub(crate) judged: u32,
     pub(crate) success: u32,
     pub(crate) clean: u32,
+    /// Judged episodes in which something was hit or dropped.
+    pub(crate) harmed: u32,
     /// Episodes in which a closing hand pressed its dish against another one.
     pub(crate) pressed: u32,
     pub(crate) relocations: u32,

@@ -45,7 +45,7 @@ def test_an_episode_is_left_out_only_if_nothing_went_wrong() -> None:
 def test_the_sums() -> None:
     met = contact("closing", "dish", touch=False)
     found = tally([episode("in_hand", step(met), step(place_error=None)), episode("deadlock"), episode("lost", step())])
-    assert (found["episodes"], found["judged"], found["success"], found["clean"]) == (3, 2, 1, 0)
+    assert (found["episodes"], found["judged"], found["success"], found["clean"], found["harmed"]) == (3, 2, 1, 0, 0)
     assert (found["relocations"], found["grasps"], found["pressed"], found["pictures"]) == (2, 3, 1, 9)
     assert found["contacts"] == {"closing": {"dish hit": 1}} and found["ends"] == {
         "deadlock": 1,

@@ -57,6 +57,7 @@ def tally(episodes: list[Episode]) -> dict[str, Any]:
         "ends": dict(sorted(ends.items())),
         "judged": len(judged),
         "success": successes,
+        "harmed": sum(map(went_wrong, judged)),
         "success_interval": wilson(successes, len(judged)),
         "clean": clean,
         "clean_interval": wilson(clean, len(judged)),
