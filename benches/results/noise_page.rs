@@ -9,20 +9,20 @@ use crate::robot_page::{collisions, other_ends, per_episode};
 pub(crate) fn noise(figures: &Noise) -> String {
     format!(
         "## How much error a plan survives\n\n\
-         `client-examples/robot-cell/run noise`: {} objects, {} episodes a cell, a gantry, a camera. In each picture each \
-         centre is off by a normal error: σ along x and σ along y. The service is asked for a margin and a yaw tolerance. \
-         Success is as in Table III. All cells have the same scenes and the same errors.\n\n\
+         `client-examples/robot-cell/run noise`: {} objects, {} episodes for each σ, margin and yaw tolerance, a gantry, a \
+         camera. In each picture each centre is off by a normal error: σ along x and σ along y. The service is asked for a \
+         margin and a yaw tolerance. Success is as in Table III. All have the same scenes and the same errors.\n\n\
          ![Success against the margin, a line for each σ](results/noise.svg)\n\n\
          The yaw tolerances are taken together in the picture. The grey line is at {}.\n\n{}\n\
          ### The least margin that is enough\n\n\
          A margin is enough if with it, and with all larger ones of the same yaw tolerance, nothing is hit or dropped in at \
-         least {} of the judged episodes. The intervals say how sure that is. Success asks for more, a target in the hand: now and \
-         then a controller goes in circles, because each new picture shows the target blocked again. No plan are episodes that end at a deadlock or without space. Relocations are per \
-         episode, those without a plan included.\n\n{}\n{}\n\
-         ### Presses, and fingers that graze at a release\n\n\
-         A press is an episode in which the closing hand pushes its dish against another one. Releases are those at which a \
-         finger meets another dish while it opens. Both are over all cells of a σ with that margin. A hit moves what it meets, \
-         a touch is too light for that.\n\n{}",
+         least {} of the judged episodes. The intervals say how sure that is. Success asks for more, a target in the hand: now \
+         and then a controller goes in circles, because each new picture shows the target blocked again. No plan are episodes \
+         that end at a deadlock or without space. Relocations are per episode, those without a plan included.\n\n{}\n{}\n\
+         ### Fingers that meet a neighbour, and presses\n\n\
+         Grasps at which a finger hits another dish while the hand comes down, releases at which one meets another dish while \
+         the hand opens, and episodes in which a closing hand presses its dish against another one. All are over all yaw \
+         tolerances.\n\n{}",
         figures.objects,
         figures.episodes,
         percent(ENOUGH),
@@ -118,29 +118,37 @@ fn never(figures: &Noise) -> String {
     format!("No margin holds {} for a σ of {}.\n", percent(ENOUGH), listed(&never))
 }
 
-/// A row a sigma, with the least margin and the largest one: presses and grazing releases.
+/// A row a sigma, with the least margin and the largest one.
 fn neighbours(figures: &Noise) -> Vec<Vec<String>> {
-    let head = ["σ", "margin", "episodes", "presses", "releases", "a finger hits", "a finger touches"];
+    let head =
+        ["σ", "margin", "grasps", "a finger hits", "releases", "a finger hits", "it touches", "episodes", "presses"];
     let mut rows = vec![row(head)];
     let margins = figures.values(|cell| cell.margin);
     for sigma in figures.values(|cell| cell.sigma) {
         for margin in [margins[0], margins[margins.len() - 1]] {
             let pool = figures.pool(|cell| cell.sigma == sigma && cell.margin == margin);
-            let part =
-                |part: u32, of: u32| or_dash(ratio(part, of), |rate| format!("{} ({})", count(part), percent(rate)));
-            let (episodes, releases) = (pool.sum(|tally| tally.episodes), pool.sum(|tally| tally.relocations));
-            rows.push(vec![
-                millimetres(sigma),
-                millimetres(margin),
-                count(episodes),
-                part(pool.sum(|tally| tally.pressed), episodes),
-                count(releases),
-                part(pool.sum(|tally| tally.contact("release", "finger hit")), releases),
-                part(pool.sum(|tally| tally.contact("release", "finger touch")), releases),
-            ]);
+            let mut cells = vec![millimetres(sigma), millimetres(margin)];
+            cells.extend(met(&pool));
+            rows.push(cells);
         }
     }
     rows
+}
+
+fn met(pool: &Pool<'_>) -> Vec<String> {
+    let part = |part: u32, of: u32| or_dash(ratio(part, of), |rate| format!("{} ({})", count(part), percent(rate)));
+    let (grasps, releases) = (pool.sum(|tally| tally.grasps), pool.sum(|tally| tally.relocations));
+    let at = |phase: &'static str, what: &'static str| pool.sum(move |tally| tally.contact(phase, what));
+    let episodes = pool.sum(|tally| tally.episodes);
+    vec![
+        count(grasps),
+        part(at("descent", "finger hit"), grasps),
+        count(releases),
+        part(at("release", "finger hit"), releases),
+        part(at("release", "finger touch"), releases),
+        count(episodes),
+        part(pool.sum(|tally| tally.pressed), episodes),
+    ]
 }
 
 /// A figure of a controller.

@@ -34,6 +34,8 @@ pub(crate) struct Tally {
     /// Episodes in which a closing hand pressed its dish against another one.
     pub(crate) pressed: u32,
     pub(crate) relocations: u32,
+    /// Those of relocations and those of targets.
+    pub(crate) grasps: u32,
     /// Steps with a contact, by phase and by what met what.
     pub(crate) contacts: BTreeMap<String, BTreeMap<String, u32>>,
     pub(crate) disturbances: u32,
