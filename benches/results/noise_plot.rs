@@ -32,7 +32,7 @@ struct Mark {
     interval: ConfidenceInterval,
 }
 
-/// Success with its interval against the margin, a line for each sigma, all yaw tolerances together.
+/// Success with its interval against the margin, a line for each sigma, for the least yaw tolerance.
 pub(crate) fn success(noise: &Noise) -> SearchOutcome<String> {
     let mut text = String::new();
     {
@@ -79,8 +79,9 @@ pub(crate) fn success(noise: &Noise) -> SearchOutcome<String> {
 
 /// The margins at which some episode was judged.
 fn marks(noise: &Noise, sigma: f64, margins: &[f64]) -> Vec<Mark> {
+    let tolerance = noise.values(|cell| cell.yaw_tolerance)[0];
     let mark = |&margin: &f64| {
-        let pool = noise.pool(|cell| cell.sigma == sigma && cell.margin == margin);
+        let pool = noise.pool(|cell| cell.is(sigma, tolerance, margin));
         let (success, judged) = pool.success();
         let interval = ConfidenceInterval::wilson(success as usize, judged as usize);
         Some(Mark { margin, rate: pool.success_rate()?, interval })

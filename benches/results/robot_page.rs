@@ -21,7 +21,7 @@ pub(crate) fn table3(figures: &Table3) -> String {
          it is a press and no hit: the hand pulls the dish to where it was seen, and no margin prevents that. An episode is clean \
          if it is a success without touches, presses and disturbances. Rates are over the judged episodes, with their 95 % \
          intervals (Wilson). Not judged are episodes that end in a deadlock, without space or out of the arm's reach, unless \
-         something was hit or dropped before. No path is a failure: the arm reaches both ends of a way, but does not find it.\n\n\
+         something was hit or dropped before. No path is a failure: the arm reaches both ends of a way, but none between them is found. Unlike in Table II, no space is not counted as a failure.\n\n\
          The controller plans anew after each step. Planning time is that of all calls of an episode, as the client waits \
          for them; beside it is what the service counts itself. Execution time is simulated. All three are means over all \
          episodes, those that ended early included.\n\n{}\n\

@@ -68,7 +68,7 @@ fn the_margins_are_the_sums_and_every_step_keeps_them() {
     let gripper: Value = serde_json::from_str(block("json margins")).unwrap();
     let field = |name: &str| gripper[name].as_f64().unwrap();
     let (place, radius, robot, yaw, thickness) = (0.0015, 0.001, 0.0005, 0.02, 0.008);
-    assert!((field("margin") - (robot + 2.0 * place + 2.0 * radius)).abs() < 1e-12);
+    assert!((field("margin") - 2.0 * (robot + place + radius)).abs() < 1e-12);
     assert!(field("clearance") >= thickness + robot + place + radius && field("yaw_tolerance") >= yaw);
 
     let answer = planned(&scene());

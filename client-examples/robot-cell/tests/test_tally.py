@@ -38,7 +38,7 @@ def test_an_episode_is_left_out_only_if_nothing_went_wrong() -> None:
         assert not is_judged(episode(end, step()))
         assert is_judged(episode(end, step(contact("descent", "finger", touch=False))))
         assert is_judged(episode(end, step(dropped=True)))
-    for end in ("timed_out", "no_path", "refused", "gave_up", "no_progress", "lost"):
+    for end in ("timed_out", "no_path", "refused", "no_progress", "lost"):
         assert is_judged(episode(end))
 
 

@@ -90,7 +90,7 @@ impl Landing<'_> {
         ticker.step(1 + visited / 16)
     }
 
-    /// How many places were looked at: places that nothing stands on end no search.
+    /// The result is the number of places visited: empty ones don't end the search, so they are charged too.
     fn gap_as_stated(&self, stated: f64, faults: &mut Faults) -> usize {
         let visited = Cell::new(0);
         let real = self.places.least_gap(&self.to, |place| {

@@ -13,7 +13,7 @@ STEPS = 50
 PICTURES = 5
 """How often the camera looks again where its errors make a scene that the service refuses."""
 ROUNDS_WITHOUT_PROGRESS = 3
-DEFINITE = {"deadlock", "no_space", "timed_out"}
+WITHOUT_PLAN = {"deadlock", "no_space", "timed_out"}
 ACTIONS = {"pick_place"}
 FAULTS = {
     "unknown_object",
@@ -38,7 +38,7 @@ WRONG_UNITS = {"out_of_proportion", "wide_yaw_tolerance"}
 @dataclass
 class Episode:
     """How an episode ended: `in_hand`, a verdict without a plan, `out_of_reach`, `no_path`, `refused`, `no_progress`,
-    `lost` (the target slipped)."""
+    `lost` (something was dropped while the target was lifted)."""
 
     end: str = ""
     outcomes: list[Outcome] = field(default_factory=list)
@@ -50,7 +50,6 @@ class Episode:
     """Of all calls, as the client waits for them."""
     service_seconds: float = 0.0
     """Of all plans, by the `statistics` of the answers."""
-    first_cost: int | None = None
     faulty_plans: int = 0
     """Plans of the paper's methods in which the service's own checker finds a fault."""
     detail: str = ""
@@ -64,7 +63,6 @@ class Episode:
             "verifications": self.verifications,
             "planning_s": self.planning_seconds,
             "service_s": self.service_seconds,
-            "first_cost": self.first_cost,
             "faulty_plans": self.faulty_plans,
             "detail": self.detail,
         }
@@ -110,7 +108,7 @@ class Controller:
         for _ in range(STEPS):
             scene, plan = self._next_plan(episode)
             verdict = plan["verdict"]
-            if verdict in DEFINITE:
+            if verdict in WITHOUT_PLAN:
                 episode.detail = _reason(plan)
                 return str(verdict)
             if verdict not in ("relocate", "graspable"):
@@ -152,12 +150,10 @@ class Controller:
                     return scene, self._left
         scene, plan = self._plan(scene)
         episode.service_seconds += sum(plan.get("statistics", {}).values()) / 1000
-        if episode.first_cost is None:
-            episode.first_cost = plan["cost"]
         codes = {warning["code"] for warning in plan["warnings"]}
         episode.faulty_plans += bool(codes & FAULTS)
-        if codes & WRONG_UNITS or (codes & FAULTS and not self._trusting):
-            raise Refused(200, {"title": f"a plan with the warnings {sorted(codes)}"})
+        if bad := codes & (WRONG_UNITS if self._trusting else WRONG_UNITS | FAULTS):
+            raise Refused(200, {"title": f"a plan with the warnings {sorted(bad)}"})
         return scene, plan
 
     def _plan(self, scene: Scene) -> tuple[Scene, Body]:

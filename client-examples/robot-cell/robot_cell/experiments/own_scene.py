@@ -61,7 +61,8 @@ def text(figures: Figures) -> str:
 
 def _line(step: Figures) -> str:
     place = step["place_error"]
-    what = "lifted" if place is None else f"moved, {1e3 * place:.2f} mm off its place"
+    done = "lifted" if place is None else f"moved, {1e3 * place:.2f} mm off its place"
+    what = step["failure"].replace("_", " ") or done
     words = [f"{step['object']}: {what}, {step['seconds']:.1f} s"]
     for contact in step["contacts"]:
         how = "hits" if is_hit(contact) else "meets"

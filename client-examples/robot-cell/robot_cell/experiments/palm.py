@@ -17,7 +17,7 @@ RADIUS = "0.03..0.08"
 HEIGHTS = 0.04, 0.12
 """The lowest dish and the tallest one, m."""
 LENGTHS = [0.07, 0.09, 0.11, 0.13]
-"""Of the fingers, m. The last are longer than the tallest dish is high."""
+"""Of the fingers, m. Only the last is longer than the tallest dish is high."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -10,6 +10,10 @@ GREATEST_ERROR = 3.0
 """In sigmas: [`e_place`] is the distance that 98.9 % of the seen centres keep to."""
 
 
+LONGEST_ID = 240
+"""Of a scene's own id, so that the number of the picture has room."""
+
+
 def e_place(sigma: float) -> float:
     """The greatest error of a centre that the margins count on, m."""
     return GREATEST_ERROR * sigma
@@ -44,7 +48,7 @@ class Camera:
         """The scene as a request, with a new `scene_id`."""
         self.pictures += 1
         scene = asked_for(self._world.scene)
-        scene["scene_id"] = f"{scene.get('scene_id') or 'cell'}/{self.pictures}"
+        scene["scene_id"] = f"{(scene.get('scene_id') or 'cell')[:LONGEST_ID]}/{self.pictures}"
         for item in scene["objects"]:
             x, y = self._world.place(item["id"])[:2] + self._random.normal(0, 1, 2) * self._sigma
             item["x"], item["y"] = float(x), float(y)

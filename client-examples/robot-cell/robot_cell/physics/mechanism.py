@@ -41,7 +41,7 @@ class Mechanism(Protocol):
     """Carries the hand. `add_to` comes first, then `bind` with the compiled model, then `home` with its data."""
 
     geoms: set[int]
-    """What it touches nothing with, once bound; the hand is apart."""
+    """Its own geoms, known once bound, which must touch nothing. The hand's are not among them."""
 
     def add_to(self, spec: mujoco.MjSpec, hand: Hand) -> None:
         """Adds its bodies, joints and drives, and hangs the hand on them."""
