@@ -1,4 +1,4 @@
-//! Plans that are carried out by what a camera sees, in words and tables.
+//! The sections of docs/RESULTS.md about plans that rest on a noisy camera.
 
 use crate::markdown::{count, listed, millimetres, or_dash, percent, ratio, row, share, table};
 use crate::noise::{ENOUGH, Noise, Pool};

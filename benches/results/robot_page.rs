@@ -1,4 +1,4 @@
-//! Plans that a robot carries out on exact data, in words and tables.
+//! The sections of docs/RESULTS.md about plans that a robot carries out on exact data.
 
 use std::collections::BTreeMap;
 

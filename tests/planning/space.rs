@@ -40,9 +40,8 @@ fn row(width: f64, margin: f64) -> SceneDraft {
 }
 
 #[test]
-fn a_place_keeps_five_millimetres_from_the_edge_whatever_the_margin_and_what_there_is_where_there_is_less_room() {
-    let rooms = [(0.5, 5e-3), (0.0861, 3e-3), (0.082, 5e-4), (0.0801, 0.0)];
-    for (width, margin, edge) in rooms.iter().flat_map(|&(width, edge)| [(width, 0.0, edge), (width, 0.03, edge)]) {
+fn a_place_keeps_five_millimetres_from_the_edge_whatever_the_margin_and_nothing_where_there_is_no_room() {
+    for (width, margin, edge) in [(0.5, 0.0, 5e-3), (0.5, 0.03, 5e-3), (0.082, 0.0, 0.0), (0.082, 0.03, 0.0)] {
         let stated = planned_for(row(width, margin), Objective::FarFromTarget);
         assert_eq!(stated.verdict, Some(Verdict::Relocate), "{width} {margin}");
         let gap = |at: f64, side: f64| at.min(side - at) - 0.04;

@@ -7,7 +7,7 @@ use super::candidates::{Candidates, PlaceSpec};
 use super::effort::{Effort, EffortMeter};
 use super::layout::Layout;
 use super::tabletop::Tabletop;
-use super::{Objective, PREFERRED_GAPS, Relocation};
+use super::{GAPS, Objective, ROOMIER_GAPS, Relocation};
 use crate::budget::{Budget, Interrupted, Stop};
 use crate::geometry::Grasp;
 use crate::knowledge::GraspModel;
@@ -47,10 +47,32 @@ const MAX_WIDTH: usize = 16;
 /// # Errors
 /// [`Interrupted`] when the budget ends.
 pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
+    let Some(found) = arrange_with(task, &GAPS, effort, budget)? else { return Ok(None) };
+    if found.least_gap() >= task.scene.gripper().margin() + GAPS[0] {
+        return Ok(Some(found));
+    }
+    // By a copy of the effort, and whatever the budget says: more room must not cost a plan.
+    let roomier = arrange_with(task, &ROOMIER_GAPS, &mut { *effort }, budget).ok().flatten();
+    Ok(Some(roomier.filter(|other| other.least_gap() > found.least_gap()).unwrap_or(found)))
+}
+
+impl Arrangement {
+    fn least_gap(&self) -> f64 {
+        self.relocations.iter().map(|relocation| relocation.gap).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn arrange_with(
+    task: &Task<'_>,
+    gaps: &[f64],
+    effort: &mut Effort,
+    budget: &Budget<'_>,
+) -> Result<Option<Arrangement>, Interrupted> {
     let mut width = 1;
     loop {
         let mut arranger = Arranger {
             task,
+            gaps,
             table: Tabletop::new(Layout::new(task.scene, task.model), EffortMeter::new(effort, budget)),
             width,
             truncated: false,
@@ -67,6 +89,7 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
 
 struct Arranger<'a, 'e> {
     task: &'a Task<'a>,
+    gaps: &'a [f64],
     table: Tabletop<'a, 'e>,
     /// The number of objects, and of places of each, that are tried at each step.
     width: usize,
@@ -174,7 +197,7 @@ impl Arranger<'_, '_> {
         let radius = self.table.layout.footprint(object).circumradius();
         let mut places: Vec<(Pose, Grasp)> = Vec::new();
         self.table.layout.lift(object, true);
-        let passes = PREFERRED_GAPS.map(|preferred| (preferred, false)).into_iter().chain([(0.0, true)]);
+        let passes = self.gaps.iter().map(|&preferred| (preferred, false)).chain([(0.0, true)]);
         for (preferred, spread) in passes {
             if places.len() >= self.width {
                 break;

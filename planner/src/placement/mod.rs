@@ -61,6 +61,9 @@ pub struct Relocation {
 /// The planner's distance from every bound, m: a thousand times the checker's tolerance.
 pub const INSIDE: f64 = 1e-6;
 
-/// The gaps between a place and other objects, and the table's edge, that are tried in turn, beyond the margin, m. An arm
-/// can't set down dishes in contact: carried out in physics, places with 1 µm of room made dishes meet.
-const PREFERRED_GAPS: [f64; 6] = [5e-3, 3e-3, 2e-3, 1e-3, 5e-4, 0.0];
+/// The gaps between a place and other objects, and the table's edge, that are tried in turn, beyond the margin, m.
+const GAPS: [f64; 2] = [5e-3, 0.0];
+
+/// The same where a plan is known that has less room than the first of [`GAPS`]. An arm can't set down dishes in contact:
+/// carried out in physics, places with 1 µm of room made dishes meet. The steps cost effort, so they are not for finding a plan.
+const ROOMIER_GAPS: [f64; 6] = [5e-3, 3e-3, 2e-3, 1e-3, 5e-4, 0.0];
