@@ -150,3 +150,12 @@ fn a_reader_that_stops_early_is_no_error() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
 }
+
+#[test]
+fn finer_gaps_give_more_room_and_cost_no_plan() {
+    let planned = |scene| -> Value { serde_json::from_str(&answered(run_with_input(&["plan", "-"], scene))).unwrap() };
+    // Sought with the finer gaps from the beginning, no plan is found before the effort is spent.
+    assert_eq!(planned(include_str!("tight-fit.json"))["cost"], 3);
+    let roomy = planned(include_str!("one-micrometre.json"));
+    assert!(roomy["relocations"][0]["gap"].as_f64().unwrap() > 0.003, "{roomy}");
+}
