@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{SweptFinger, complete, derivable};
 use singulate_planner::plan::survey;
-use singulate_planner::scene::{ObjectDraft, RectangleDraft, Scene, SceneDraft, ShapeDraft, TableDraft};
+use singulate_planner::scene::{GoalDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, ShapeDraft, TableDraft};
 
 const SIZES: [usize; 8] = [50, 100, 200, 500, 1000, 2000, 5000, 10_000];
 const SCENES: u64 = 3;
@@ -61,7 +61,7 @@ fn loose(side: usize) -> Scene {
     cases::scene(SceneDraft {
         table: TableDraft { top, keep_out: Vec::new() },
         objects: objects.collect(),
-        target: Some("d0".to_owned()),
+        goal: Some(GoalDraft::Target("d0".to_owned())),
         ..cases::equal_density(50, 0)
     })
 }

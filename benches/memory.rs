@@ -15,7 +15,9 @@ use singulate::wire::{AnswerBody, RequestLimits, read_scene};
 use singulate_planner::budget::Budget;
 use singulate_planner::paper::plan_by;
 use singulate_planner::plan::PlanError;
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft};
+use singulate_planner::scene::{
+    GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft,
+};
 use singulate_planner::search::SILENT;
 
 const MAX_PEAK_KB: u64 = 100_000;
@@ -92,6 +94,7 @@ fn json(draft: &SceneDraft, settings: &str) -> String {
     };
     let objects: Vec<String> = draft.objects.iter().map(object).collect();
     let (top, gripper) = (&draft.table.top, &draft.gripper);
+    let Some(GoalDraft::Target(target)) = &draft.goal else { panic!("a target") };
     format!(
         r#"{{"table":{{"x_min":{},"y_min":{},"x_max":{},"y_max":{}}},"gripper":{{"fingers":{},"finger_width":{},"clearance":{}}},"objects":[{}],"target":"{}","settings":{settings}}}"#,
         number(top.x_min),
@@ -102,7 +105,7 @@ fn json(draft: &SceneDraft, settings: &str) -> String {
         number(gripper.finger_width),
         number(gripper.clearance),
         objects.join(","),
-        draft.target.as_deref().expect("a target"),
+        target,
     )
 }
 
@@ -122,7 +125,7 @@ fn plate_among_crumbs() -> SceneDraft {
         fixed: false,
     };
     draft.objects.push(plate);
-    draft.target = Some("plate".into());
+    draft.goal = Some(GoalDraft::Target("plate".into()));
     draft
 }
 
@@ -154,7 +157,13 @@ fn plate_to_move() -> SceneDraft {
     }
     let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(6.2), y_max: Some(6.2) };
     let table = TableDraft { top, keep_out: Vec::new() };
-    SceneDraft { table, gripper: Recipe::default().gripper, objects, target: Some("cup".into()) }
+    SceneDraft {
+        table,
+        gripper: Recipe::default().gripper,
+        objects,
+        goal: Some(GoalDraft::Target("cup".into())),
+        ..SceneDraft::default()
+    }
 }
 
 /// A stair on whose steps each disc can only be gripped along the way to the next one, which stands in that way; crumbs
@@ -187,6 +196,7 @@ fn stair() -> SceneDraft {
         table: TableDraft { top, keep_out: Vec::new() },
         gripper,
         objects: (0..300).flat_map(step).chain((0..8700).map(far)).collect(),
-        target: Some("step-0".into()),
+        goal: Some(GoalDraft::Target("step-0".into())),
+        ..SceneDraft::default()
     }
 }

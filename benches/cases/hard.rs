@@ -3,7 +3,9 @@
 use singulate::experiments::{Crowding, Recipe, generate};
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{SweptFinger, complete, derivable};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft};
+use singulate_planner::scene::{
+    GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, ShapeDraft, TableDraft,
+};
 
 use super::cases::{count, scene};
 
@@ -40,7 +42,7 @@ pub(crate) fn too_much_for_lobs() -> SceneDraft {
         pressed_gap: 0.024,
         ..Recipe::default()
     };
-    SceneDraft { target: Some("o9".to_owned()), ..generate(&recipe, 0).expect("fits") }
+    SceneDraft { goal: Some(GoalDraft::Target("o9".to_owned())), ..generate(&recipe, 0).expect("fits") }
 }
 
 /// With the object as target that chaining reaches last.
@@ -49,7 +51,7 @@ pub(crate) fn freed_last(draft: SceneDraft) -> SceneDraft {
     let base = complete(&scene, &SweptFinger, &Budget::unlimited()).expect("within the limits");
     let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let last = closure.order.last().expect("not all are locked");
-    SceneDraft { target: Some(scene.object(*last).id().to_owned()), ..draft }
+    SceneDraft { goal: Some(GoalDraft::Target(scene.object(*last).id().to_owned())), ..draft }
 }
 
 /// With the first object as target that nothing can free.
@@ -58,7 +60,7 @@ pub(crate) fn locked(draft: SceneDraft) -> SceneDraft {
     let base = complete(&scene, &SweptFinger, &Budget::unlimited()).expect("within the limits");
     let closure = derivable(&base, |_| false, &Budget::unlimited()).expect("unlimited");
     let stuck = scene.indices().find(|object| !closure.derives(*object)).expect("some are locked");
-    SceneDraft { target: Some(scene.object(stuck).id().to_owned()), ..draft }
+    SceneDraft { goal: Some(GoalDraft::Target(scene.object(stuck).id().to_owned())), ..draft }
 }
 
 /// 10,000 crumbs, all but touching. With a clearance of 16.5 mm a grasp has as many in reach as the limit admits.
@@ -80,5 +82,11 @@ pub(crate) fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
         clearance: Some(clearance),
         ..Recipe::default().gripper
     };
-    SceneDraft { table: TableDraft { top, keep_out: Vec::new() }, gripper, objects, target: Some("c50-50".into()) }
+    SceneDraft {
+        table: TableDraft { top, keep_out: Vec::new() },
+        gripper,
+        objects,
+        goal: Some(GoalDraft::Target("c50-50".into())),
+        ..SceneDraft::default()
+    }
 }

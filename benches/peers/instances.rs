@@ -102,7 +102,7 @@ fn hardest(recipe: &Recipe, seed: usize) -> Instance {
     let derivable = scene.indices().filter(|object| closure.derives(*object));
     let target = derivable.max_by_key(|object| (bound(*object), core::cmp::Reverse(*object)));
     let name = format!("gap {:.0} mm seed {seed}", recipe.pressed_gap * 1e3);
-    instance(name, &scene, target.unwrap_or(scene.target()))
+    instance(name, &scene, target.or(scene.target()).expect("a target"))
 }
 
 fn scene(recipe: &Recipe, seed: usize) -> Scene {

@@ -72,6 +72,7 @@ impl Generate {
             clearance: Some(self.clearance),
             margin: Some(self.margin),
             yaw_tolerance: Some(0.0),
+            ..GripperDraft::default()
         };
         Recipe {
             objects: self.objects,

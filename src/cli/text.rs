@@ -10,7 +10,7 @@ use singulate_planner::cost::Cost;
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::{Object, Pose, Scene};
-use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 /// The most ids in one sentence.
 const MANY: usize = 40;
@@ -32,12 +32,13 @@ pub(super) fn answer(request: &PlanRequest, judged: &Judged) -> String {
     let scene = &request.scene;
     let name = |id: &String| format!(" in scene {}", plain(id));
     let place = request.scene_id.as_ref().map(name).unwrap_or_default();
-    let target = plain(scene.object(scene.target()).id());
+    let target = scene.target().map(|target| plain(scene.object(target).id())).unwrap_or_default();
     let Judged { answer: Answer { statement, statistics }, .. } = judged;
     let mut paragraphs = vec![format!("{}\ntarget: {target}{place}\n", headline(judged))];
     paragraphs.extend(match statement.verdict {
         Some(Verdict::Graspable) => vec![last_grasp("Grasp", &target, statement)],
         Some(Verdict::Relocate) => vec![steps(&target, statement), why_least(statement)],
+        Some(Verdict::Cleared | Verdict::PartlyCleared) => vec![steps(&target, statement)],
         // Without a proof, headline and warnings say everything.
         Some(Verdict::Deadlock) => statement.deadlock.iter().map(|deadlock| why_never(scene, deadlock)).collect(),
         Some(Verdict::NoSpace) => vec![so_far(statement), NO_PROOF.to_owned()],
@@ -76,6 +77,12 @@ fn steps(target: &str, statement: &Statement) -> String {
             let from = from.map(point).unwrap_or_default();
             let (object, arrow) = (plain(object), "→".to_owned());
             vec![(at + 1).to_string(), object, from, arrow, point(*to), yaw(*grasp), yaw(*release), gap]
+        }
+        Step::PickDrop(PickDrop { object, from, grasp, drop_off }) => {
+            let from = from.map(point).unwrap_or_default();
+            let arrow = "→".to_owned();
+            let place = plain(drop_off);
+            vec![(at + 1).to_string(), plain(object), from, arrow, place, yaw(*grasp), String::new(), String::new()]
         }
     });
     format!("{}\n{}", table(&columns, rows), last_grasp("Then grasp", target, statement))
@@ -130,7 +137,8 @@ fn ids<S: AsRef<str>>(objects: &[S]) -> String {
 
 fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
     let fixed = scene.objects().iter().filter(|object| object.fixed()).map(Object::id);
-    let (fixed, target): (HashSet<&str>, _) = (fixed.collect(), scene.object(scene.target()).id());
+    let fixed: HashSet<&str> = fixed.collect();
+    let target = scene.target().map(|target| scene.object(target).id()).unwrap_or_default();
     let members = core.iter().map(|id| {
         let part = match (id == target, fixed.contains(id.as_str())) {
             (true, _) => "the target",

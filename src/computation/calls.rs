@@ -10,9 +10,8 @@ use crate::wire::{
 use singulate_planner::budget::{Budget, Interrupted};
 use singulate_planner::knowledge::{NoBase, known};
 use singulate_planner::paper::{GraspModelName, Judged, histograms};
-use singulate_planner::plan::{Answer, Statistics};
+use singulate_planner::plan::{Answer, Statistics, nothing_in_time};
 use singulate_planner::search::SILENT;
-use singulate_planner::statement::Statement;
 
 /// Plans for the scene's target.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +45,7 @@ impl Computation for Plan {
     fn too_late(self, known: KnownRequest<'_, PlanRequest>) -> Served {
         match (known, self.0) {
             (KnownRequest::Request(request), _) => {
-                let answer = Answer { statement: Statement::timed_out(), statistics: Statistics::default() };
+                let answer = Answer { statement: nothing_in_time(&request.scene), statistics: Statistics::default() };
                 self.write(request, &answer.into())
             }
             (KnownRequest::Glance(glance), Form::Json) => {

@@ -58,12 +58,12 @@ impl OnBase {
 /// The episode of one seed, without the baseline.
 pub(super) fn episode(case: &PapersCase, seed: u64, patience: &Patience<'_>) -> Result<Episode, ExperimentError> {
     let failed = |cause| ExperimentError { objects: case.objects, seed, cause };
-    let PapersScene { scene, sector, knowledge } = papers_scene(case, seed, patience)?;
-    let sector = OnBase::new(knowledge, &sector, scene.target(), patience);
+    let PapersScene { scene, target, sector, knowledge } = papers_scene(case, seed, patience)?;
+    let sector = OnBase::new(knowledge, &sector, target, patience);
 
     let watch = patience.watch();
     let base = complete_base(case, seed, &scene, GraspModelName::SweptFinger, &watch)?;
-    let mut swept_finger = OnBase::new(watch.elapsed(), &base, scene.target(), patience);
+    let mut swept_finger = OnBase::new(watch.elapsed(), &base, target, patience);
 
     let (judged, planning) = planned(&scene, &Methods::default(), patience).map_err(failed)?;
     for on_base in [&sector, &swept_finger] {
@@ -86,9 +86,9 @@ pub(super) fn baseline(
     seed: u64,
     patience: &Patience<'_>,
 ) -> Result<[TimedSearch; 2], ExperimentError> {
-    let PapersScene { scene, sector, .. } = papers_scene(case, seed, patience)?;
+    let PapersScene { scene, target, sector, .. } = papers_scene(case, seed, patience)?;
     let swept_finger = complete_base(case, seed, &scene, GraspModelName::SweptFinger, &patience.watch())?;
-    Ok([sector, swept_finger].map(|base| timed_search(SearchMethod::ForwardAstar, &base, scene.target(), patience)))
+    Ok([sector, swept_finger].map(|base| timed_search(SearchMethod::ForwardAstar, &base, target, patience)))
 }
 
 impl Episode {
@@ -135,7 +135,7 @@ fn agree(ours: SearchEnding, stated: &Statement) -> bool {
     let at_most = |bound: Option<Cost>, least| bound.is_some_and(|bound| bound.get() <= least);
     let (cost, bound) = (stated.cost, stated.lower_bound);
     match (ours, stated.verdict) {
-        (_, None) => false,
+        (_, None | Some(Verdict::Cleared | Verdict::PartlyCleared)) => false,
         (SearchEnding::Late | SearchEnding::TooLarge, _) | (_, Some(Verdict::TimedOut)) => true,
         (SearchEnding::Deadlock, verdict) => verdict == Some(Verdict::Deadlock),
         (SearchEnding::Sequence(least), Some(Verdict::Graspable)) => least == 0,

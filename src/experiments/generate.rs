@@ -6,7 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use super::arrange;
 use super::arrange::Disc;
 use super::recipe::{GenerateError, Recipe, rectangle};
-use singulate_planner::scene::{ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft};
+use singulate_planner::scene::{
+    GoalDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft,
+};
 
 /// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; discs don't
 /// overlap and none hangs over the table's edge. The target is the most crowded object.
@@ -22,7 +24,7 @@ pub fn generate(recipe: &Recipe, seed: u64) -> Result<SceneDraft, GenerateError>
     let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
     let (scene, _) = Scene::new(draft.clone(), &limits).map_err(GenerateError::Scene)?;
     let target = most_crowded(&scene);
-    let mut draft = SceneDraft { target: draft.objects[target.get()].id.clone(), ..draft };
+    let mut draft = SceneDraft { goal: draft.objects[target.get()].id.clone().map(GoalDraft::Target), ..draft };
     for (at, object) in draft.objects.iter_mut().enumerate() {
         let drawn: f64 = random.random();
         object.fixed = drawn < recipe.fixed_share && at != target.get();
@@ -43,7 +45,8 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
         table: TableDraft { top: rectangle(min, max), keep_out: Vec::new() },
         gripper: recipe.gripper,
         objects: discs.iter().enumerate().map(object).collect(),
-        target: Some("o0".to_owned()),
+        goal: Some(GoalDraft::Target("o0".to_owned())),
+        ..SceneDraft::default()
     }
 }
 
@@ -135,7 +138,7 @@ mod tests {
         let recipe = Recipe { table: (2.0, 2.0), ..recipe };
         let scene = scene(&recipe, 1);
         assert_eq!(scene.objects().iter().filter(|object| !object.fixed()).count(), 1);
-        let target = scene.object(scene.target());
+        let target = scene.object(scene.target().unwrap());
         assert!(!target.fixed());
         let reach = scene.gripper().corner_distance(&target.footprint());
         assert!(scene.index().within(target.footprint().at(), reach).count() > 5);

@@ -20,6 +20,7 @@ const COLUMN_SEEDS: u64 = 1_000_000;
 #[derive(Debug)]
 pub(super) struct PapersScene {
     pub(super) scene: Scene,
+    pub(super) target: ObjectIndex,
     /// The complete base by the sector model.
     pub(super) sector: KnowledgeBase,
     /// The time for the base.
@@ -45,8 +46,9 @@ pub(super) fn papers_scene(
     let watch = patience.watch();
     let sector = complete_base(case, seed, &scene, GraspModelName::Sector, &watch)?;
     let knowledge = watch.elapsed();
-    let scene = scene.with_target(hardest(&sector)).expect("nothing is fixed in the paper's cases");
-    Ok(PapersScene { scene, sector, knowledge })
+    let target = hardest(&sector);
+    let scene = scene.with_target(target).expect("nothing is fixed in the paper's cases");
+    Ok(PapersScene { scene, target, sector, knowledge })
 }
 
 /// The base of all objects, without a time limit: it is not part of the measured times.
@@ -90,7 +92,7 @@ mod tests {
             };
             let largest = scene.indices().map(g_min).max().unwrap();
             obstacles += largest;
-            assert_eq!(scene.indices().find(|object| g_min(*object) == largest), Some(scene.target()));
+            assert_eq!(scene.indices().find(|object| g_min(*object) == largest), scene.target());
             assert_eq!(scene.objects().len(), case.objects);
         }
         assert!(obstacles > 6, "{obstacles}");

@@ -46,6 +46,7 @@ impl Default for Recipe {
             clearance: Some(0.05),
             margin: Some(0.0),
             yaw_tolerance: Some(0.0),
+            ..GripperDraft::default()
         };
         Self {
             objects: 16,

@@ -141,7 +141,7 @@ fn draw(
     while drawn.seeds.len() < settings.episodes && drawn.count < MAX_DRAWN * settings.episodes {
         let seed = seed_of(settings.seed, column, drawn.count);
         let papers = papers_scene(case, seed, patience)?;
-        let search = timed_search(SearchMethod::Lobs, &papers.sector, papers.scene.target(), patience);
+        let search = timed_search(SearchMethod::Lobs, &papers.sector, papers.target, patience);
         if matches!(search.ending, SearchEnding::Sequence(_)) {
             drawn.seeds.push(seed);
         }

@@ -86,6 +86,7 @@ fn gripper(random: &mut ChaCha8Rng) -> GripperDraft {
         clearance: Some(f64::from(whole(random, 20, 60)) * 1e-3),
         margin: Some(if chance(random, 0.75) { 0.0 } else { f64::from(whole(random, 1, 8)) * 1e-3 }),
         yaw_tolerance: Some(if chance(random, 0.75) { 0.0 } else { f64::from(whole(random, 1, 50)) * 1e-3 }),
+        ..GripperDraft::default()
     }
 }
 

@@ -29,6 +29,7 @@ pub fn headline(judged: &Judged) -> String {
             format!("timed out: no plan yet ({})", bound(stated.lower_bound))
         }
         Some(Verdict::TimedOut) => "timed out: nothing is proven yet".to_owned(),
+        Some(Verdict::Cleared | Verdict::PartlyCleared) => relocate(stated),
         None => "no verdict".to_owned(),
     }
 }
@@ -77,7 +78,7 @@ fn counted(count: u64, noun: &str) -> String {
 /// The objects, which the headline leaves out.
 fn detail(stated: &Statement) -> String {
     match stated.verdict {
-        Some(Verdict::Relocate) => {
+        Some(Verdict::Relocate | Verdict::Cleared | Verdict::PartlyCleared) => {
             let moved: Vec<&str> = stated.steps().iter().map(Step::object).collect();
             format!("in order: {}", moved.join(", "))
         }
@@ -111,12 +112,17 @@ fn scene_line(scene: &Scene) -> String {
     };
     format!(
         "target {}; {}{fixed}; {} fingers, {} mm wide, {} mm clearance",
-        scene.object(scene.target()).id(),
+        wanted(scene),
         counted(scene.objects().len() as u64, "object"),
         gripper.fingers(),
         millimetres(gripper.finger_width()),
         millimetres(gripper.clearance()),
     )
+}
+
+fn wanted(scene: &Scene) -> String {
+    let ids = scene.goal().named().iter().map(|&object| scene.object(object).id());
+    ids.collect::<Vec<_>>().join(", ")
 }
 
 fn millimetres(metres: f64) -> f64 {

@@ -60,7 +60,8 @@ fn steps(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> G
         return moves::plan(scene, stated, roles, view);
     }
     if let Some(grasp) = stated.target_grasp {
-        return moves::target_grasp(scene, grasp, view);
+        let grasped = roles.grasped(stated);
+        return grasped.map(|object| moves::target_grasp(scene, object, grasp, view)).unwrap_or_default();
     }
     stated.needed.iter().fold(group, |_, needed| moves::needed(needed, roles, view))
 }

@@ -23,7 +23,8 @@ pub(super) fn plan(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &
         group.add(places(scene, &step, again, view))
     });
     let routes = steps().fold(Group::new().set("class", "routes"), |group, step| group.add(route(&step, view)));
-    let target = stated.target_grasp.map(|grasp| target_grasp(scene, grasp, view));
+    let target = stated.target_grasp.zip(roles.grasped(stated));
+    let target = target.map(|(grasp, object)| target_grasp(scene, object, grasp, view));
     Group::new().add(places).add(target.unwrap_or_default()).add(routes)
 }
 
@@ -54,13 +55,16 @@ pub(super) fn signs(step: &Step) -> Vec<(Sign, &'static str)> {
             (Sign::Finger(paint::GRASP), "fingers picking"),
             (Sign::Finger(paint::RELEASE), "fingers releasing"),
         ],
+        Step::PickDrop(_) => {
+            vec![(Sign::Number(paint::MOVED), "order"), (Sign::Finger(paint::GRASP), "fingers picking")]
+        }
     }
 }
 
 /// The open fingers at the target.
-pub(super) fn target_grasp(scene: &Scene, grasp: StatedGrasp, view: &View) -> Group {
-    let target = scene.object(scene.target()).footprint();
-    fingers(&target, grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP).set("class", "fingers target-grasp")
+pub(super) fn target_grasp(scene: &Scene, target: &Object, grasp: StatedGrasp, view: &View) -> Group {
+    fingers(&target.footprint(), grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP)
+        .set("class", "fingers target-grasp")
 }
 
 /// The order of relocations in the best known derivation.

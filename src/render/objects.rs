@@ -34,7 +34,7 @@ pub(super) fn standing(scene: &Scene, roles: &Roles<'_>, view: &View) -> Group {
 }
 
 fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Group {
-    let (object, target) = (scene.object(index), index == scene.target());
+    let (object, target) = (scene.object(index), roles.wanted(index));
     let (name, paint) = match roles.of(index) {
         Role::Core => ("core", paint::CORE),
         Role::Blocked => ("blocked", paint::BLOCKED),

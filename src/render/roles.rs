@@ -53,6 +53,17 @@ impl<'a> Roles<'a> {
         self.roles[object.get()]
     }
 
+    /// True for the target, and for whatever else the goal names.
+    pub(super) fn wanted(&self, object: ObjectIndex) -> bool {
+        self.scene.goal().named().binary_search(&object).is_ok()
+    }
+
+    /// The object that is grasped in the end, as far as it is known.
+    pub(super) fn grasped(&self, stated: &Statement) -> Option<&'a Object> {
+        let chosen = || stated.target.as_deref().and_then(|id| self.object(id));
+        self.scene.target().map(|target| self.scene.object(target)).or_else(chosen)
+    }
+
     /// The object with this id.
     pub(super) fn object(&self, id: &str) -> Option<&'a Object> {
         self.by_id.get(id).map(|&object| self.scene.object(object))

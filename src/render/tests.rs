@@ -10,7 +10,7 @@ use singulate_planner::cost::Cost;
 use singulate_planner::paper::Warning;
 use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::scene::{
-    GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, SceneLimits, ShapeDraft, TableDraft, distance,
+    GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, SceneLimits, ShapeDraft, TableDraft, distance,
 };
 use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Step, Verdict};
 
@@ -33,12 +33,14 @@ fn scene(ids: &[&str]) -> Scene {
         clearance: Some(0.05),
         margin: Some(0.0),
         yaw_tolerance: Some(0.0),
+        ..GripperDraft::default()
     };
     let draft = SceneDraft {
         table: TableDraft { top: rectangle(0.0, 0.0, 21.0, 21.0), keep_out: vec![rectangle(0.0, 0.0, 0.1, 0.1)] },
         gripper,
         objects: ids.iter().enumerate().map(object).collect(),
-        target: Some(ids[0].to_owned()),
+        goal: Some(GoalDraft::Target(ids[0].to_owned())),
+        ..SceneDraft::default()
     };
     Scene::new(draft, &SceneLimits::default()).unwrap().0
 }
@@ -213,6 +215,7 @@ fn a_tiny_or_a_lopsided_table_gives_finite_numbers() {
                 clearance: Some(1e3),
                 margin: Some(0.0),
                 yaw_tolerance: Some(0.0),
+                ..GripperDraft::default()
             },
             objects: vec![ObjectDraft {
                 id: Some("t".to_owned()),
@@ -221,7 +224,8 @@ fn a_tiny_or_a_lopsided_table_gives_finite_numbers() {
                 shape: ShapeDraft::disc(1e3),
                 fixed: false,
             }],
-            target: Some("t".to_owned()),
+            goal: Some(GoalDraft::Target("t".to_owned())),
+            ..SceneDraft::default()
         };
         let scene = Scene::new(draft, &SceneLimits::default()).unwrap().0;
         let drawing = svg(&scene, &graspable(0.1));

@@ -94,6 +94,7 @@ fn drawn<'a>(
         let object = roles.object(step.object()).map(Object::footprint);
         object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object.moved_to(pose))))
     });
-    let target = stated.target_grasp.map(|_| reach(scene.object(scene.target()).footprint()));
+    let grasped = stated.target_grasp.and_then(|_| roles.grasped(stated));
+    let target = grasped.map(|object| reach(object.footprint()));
     scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
 }

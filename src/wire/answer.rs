@@ -9,10 +9,11 @@ use super::finding;
 use super::glance::Glance;
 use super::plan_request::PlanRequest;
 use super::problem::WarningItem;
-use super::step::{GraspBody, RelocationBody};
+use super::step::{GraspBody, StepBody};
 use singulate_planner::cost::Cost;
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics};
+use singulate_planner::scene::Goal;
 use singulate_planner::statement::{Deadlock, Verdict};
 
 /// The answer to a planning request. A client must refuse a verdict that it doesn't know.
@@ -24,39 +25,53 @@ pub struct AnswerBody<'a> {
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
     pub scene_id: Option<&'a str>,
-    /// The id of the object to grasp.
-    #[schema(example = "plate-1")]
-    pub target: &'a str,
+    /// The id of the object that is grasped in the end. Null where objects are taken away, and where none of several
+    /// candidates is chosen.
+    #[schema(required = true, example = "plate-1")]
+    pub target: Option<&'a str>,
     /// The plan, in order of execution. Empty if there is no plan or no relocation is needed.
     #[schema(example = json!([{
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
-    pub relocations: Vec<RelocationBody<'a>>,
-    /// The grasp of the target after all relocations. Null if there is no plan.
+    pub relocations: Vec<StepBody<'a>>,
+    /// The grasp of the target after all relocations. Null if there is no plan, and where objects are taken away.
     #[schema(required = true)]
     pub target_grasp: Option<GraspBody>,
-    /// The number of relocations. Null if there is no plan.
+    /// The number of steps. Null if there is no plan.
     #[schema(value_type = Option<usize>, required = true, example = 1)]
     pub cost: Option<u64>,
-    /// The proven lower bound: no plan has fewer relocations. Null for a deadlock. With a method of the paper it is
-    /// also null if nothing is proven.
+    /// The proven lower bound: no plan has fewer steps. Null for a deadlock and for a clearing. With a method of the paper it
+    /// is also null if nothing is proven.
     #[schema(value_type = Option<usize>, required = true, example = 1)]
     pub lower_bound: Option<u64>,
-    /// True if no plan has fewer relocations than this one. Null if no plan passes its check or no bound is proven.
+    /// True if no plan has fewer steps than this one. Null if no plan passes its check or no bound is proven, and for a
+    /// clearing.
     #[schema(required = true, example = true)]
     pub optimal: Option<bool>,
     /// The proof of the bound: every plan moves at least one object of each set. Null if `lower_bound` is null.
     #[schema(required = true, example = json!([["plate-2", "plate-5"]]))]
     pub landmarks: Option<&'a [Vec<String>]>,
-    /// The proof that no sequence of pick-and-place frees the target. Null for any other verdict. With a method of the
+    /// The proof that no sequence of steps reaches the goal. Null for any other verdict. With a method of the
     /// paper it is also null if the deadlock is not proven.
     #[schema(required = true)]
     pub deadlock: Option<DeadlockBody<'a>>,
-    /// For `no_space` and `timed_out`: objects that would free the target, moved in this order, if there were places
+    /// For `no_space` and `timed_out`: objects that would reach the goal, moved in this order, if there were places
     /// for them. Null for other verdicts, or if none are known.
     #[schema(required = true, example = json!(["plate-2"]))]
     pub needed: Option<&'a [String]>,
+    /// Only there for a clearing: the lock of the objects that can never be taken away, or null.
+    #[schema(value_type = Option<DeadlockBody>)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stuck: Option<Option<DeadlockBody<'a>>>,
+    /// Only there for a clearing: the ids of the objects that stay, those apart that the request calls fixed.
+    #[schema(example = json!(["plate-3"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left: Option<&'a [String]>,
+    /// Only there for a clearing: true if no order takes more objects away. False if that is not known.
+    #[schema(example = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven: Option<bool>,
     /// Warnings about the scene. With a method of the paper also the faults that our own methods find in the answer.
     #[schema(example = json!([{
         "code": "overlap",
@@ -75,21 +90,26 @@ pub struct AnswerBody<'a> {
 pub enum VerdictWord {
     /// The target can be grasped as the table stands.
     Graspable,
-    /// The plan frees the target.
+    /// The plan reaches the goal.
     Relocate,
-    /// No sequence of pick-and-place can ever free the target. Where one of the paper's methods was asked for, only proven
+    /// No sequence of steps can ever reach the goal. Where one of the paper's methods was asked for, only proven
     /// if `deadlock` is not null.
     Deadlock,
     /// No checked plan was found before the effort limit; not a proof.
     NoSpace,
     /// The time limit came first, with no plan in hand.
     TimedOut,
+    /// The steps take away all that the request does not call fixed.
+    Cleared,
+    /// The steps take away what can go, or what was found in time; `left` names the rest.
+    PartlyCleared,
 }
 
 /// Objects that lock each other: at every yaw of each movable one, another of them blocks a finger.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct DeadlockBody<'a> {
-    /// The ids of the greatest lock. It holds the target, and fixed objects that block a member.
+    /// The ids of the greatest lock. It holds the target, all candidates, or one of the objects that are wanted away; and fixed
+    /// objects that block a member.
     #[schema(example = json!(["plate-1", "plate-2", "vase"]))]
     pub blocked: &'a [String],
     /// The ids of a minimal lock within `blocked`: without any one of them the rest is no lock.
@@ -119,11 +139,12 @@ impl<'a> AnswerBody<'a> {
     pub fn new(request: &'a PlanRequest, judged: &'a Judged) -> Self {
         let Judged { answer: Answer { statement, statistics }, .. } = judged;
         let scene = &request.scene;
+        let clears = *scene.goal() == Goal::Clear;
         Self {
             verdict: statement.verdict.map(Verdict::as_str),
             scene_id: request.scene_id.as_deref(),
-            target: scene.object(scene.target()).id(),
-            relocations: statement.steps().iter().map(RelocationBody::new).collect(),
+            target: scene.target().map(|target| scene.object(target).id()).or(statement.target.as_deref()),
+            relocations: statement.steps().iter().map(StepBody::new).collect(),
             target_grasp: statement.target_grasp.map(GraspBody::from),
             cost: statement.cost.map(Cost::get),
             lower_bound: statement.lower_bound.map(Cost::get),
@@ -131,6 +152,9 @@ impl<'a> AnswerBody<'a> {
             landmarks: statement.landmarks.as_deref(),
             deadlock: statement.deadlock.as_ref().map(DeadlockBody::new),
             needed: statement.needed.as_deref(),
+            stuck: clears.then(|| statement.stuck.as_ref().map(DeadlockBody::new)),
+            left: statement.left.as_deref(),
+            proven: statement.proven,
             warnings: warnings(request, judged),
             statistics: StatisticsBody::new(statistics),
         }
@@ -142,7 +166,7 @@ impl<'a> AnswerBody<'a> {
         Some(Self {
             verdict: Some(Verdict::TimedOut.as_str()),
             scene_id: glance.scene_id.as_deref(),
-            target: glance.target.as_deref()?,
+            target: Some(glance.target.as_deref()?),
             relocations: Vec::new(),
             target_grasp: None,
             cost: None,
@@ -151,6 +175,9 @@ impl<'a> AnswerBody<'a> {
             landmarks: Some(&[]),
             deadlock: None,
             needed: None,
+            stuck: None,
+            left: None,
+            proven: None,
             warnings: Vec::new(),
             statistics: StatisticsBody::new(&Statistics::default()),
         })

@@ -32,7 +32,7 @@ pub enum ErrorCode {
     OutOfRange,
     /// An id is empty or too long.
     IdLength,
-    /// Two objects have one id.
+    /// Two objects, or two drop-offs, have one id; a list names an id twice.
     DuplicateId,
     /// A rectangle whose least is not below its greatest.
     EmptyRectangle,
@@ -48,10 +48,26 @@ pub enum ErrorCode {
     WideYawTolerance,
     /// A length that does not go with the rest of the scene; millimetres for metres? Only ever a warning.
     OutOfProportion,
-    /// The target is no object of the scene.
+    /// The target, or another object that is wanted, is no object of the scene.
     UnknownTarget,
-    /// The target can't be moved.
+    /// The target, or another object that is wanted, can't be moved.
     FixedTarget,
+    /// An object that is wanted, or taken away, is wider than the hand opens. As the goal a fault, elsewhere only a warning.
+    TooWide,
+    /// No drop-off accepts an object that is to be taken away.
+    NotAccepted,
+    /// A list of ids without an id.
+    EmptyList,
+    /// Fields that exclude each other.
+    ConflictingFields,
+    /// The paper's methods know no such field.
+    DiscsOnly,
+    /// What a drop-off accepts is no object of the scene. Only ever a warning.
+    UnknownObject,
+    /// Nothing can be moved without a drop-off. Only ever a warning.
+    NoDropOff,
+    /// More drop-offs than a scene may have.
+    TooManyDropOffs,
     /// More objects than a scene may have.
     TooManyObjects,
     /// More obstacles in reach of one grasp than there may be.

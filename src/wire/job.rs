@@ -10,9 +10,12 @@ use serde_json::{Value, json};
 use utoipa::ToSchema;
 
 use super::answer::AnswerBody;
+use super::drop_off::DropOffBody;
+use super::goal::GoalBody;
 use super::object::ObjectBody;
 use super::problem::Problem;
-use super::scene::{GripperBody, SettingsBody, TableBody};
+use super::scene::{GripperBody, TableBody};
+use super::settings::SettingsBody;
 use singulate_planner::search::Incumbent;
 
 /// A scene to plan for later: the body of a planning request with two more fields.
@@ -34,7 +37,12 @@ pub struct JobSceneBody {
     pub objects: Vec<ObjectBody>,
     /// The id of the object to grasp. It must not be fixed.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
-    pub target: String,
+    pub target: Option<String>,
+    /// What is wanted, in place of a target.
+    pub goal: Option<GoalBody>,
+    /// Places off the table, to which objects can be taken away. Default: none.
+    #[schema(max_items = 1000, example = json!([{"id": "tray", "capacity": 4, "accepts": ["plate-1"]}]))]
+    pub drop_offs: Option<Vec<DropOffBody>>,
     /// How to plan. The time limit counts from when a worker begins.
     pub settings: Option<SettingsBody>,
     /// The URL to which the job is sent by POST when it has ended. The operator must have listed its host.

@@ -23,8 +23,18 @@ pub struct JobRequest {
 }
 
 /// A planning request's fields and two more.
-const JOB: FieldNames =
-    FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "settings", "callback_url", "priority"]);
+const JOB: FieldNames = FieldNames::of(&[
+    "scene_id",
+    "table",
+    "gripper",
+    "objects",
+    "target",
+    "goal",
+    "drop_offs",
+    "settings",
+    "callback_url",
+    "priority",
+]);
 const BATCH: FieldNames = FieldNames::of(&["scenes"]);
 
 /// Read a request for one job.

@@ -5,8 +5,10 @@
 
 mod answer;
 mod code;
+mod drop_off;
 mod finding;
 mod glance;
+mod goal;
 mod job;
 mod job_request;
 mod json;
@@ -32,7 +34,9 @@ mod walk;
 
 pub use answer::{AnswerBody, DeadlockBody, StatisticsBody, VerdictWord, warnings};
 pub use code::ErrorCode;
+pub use drop_off::DropOffBody;
 pub use glance::Glance;
+pub use goal::GoalBody;
 pub use job::{
     BatchBody, IncumbentBody, JobBody, JobListBody, JobSceneBody, JobStateWord, JobsBody, RawJson, queued_job,
 };
@@ -43,12 +47,13 @@ pub use object::ObjectBody;
 pub use plan_request::PlanRequest;
 pub use problem::{ErrorItem, LoggedProblem, Problem, ProblemKind, WarningItem};
 pub use request::read_scene;
-pub use scene::{
-    GraspModelWord, GripperBody, ObjectiveWord, PlacementWord, RectangleBody, SceneBody, SearchWord, SettingsBody,
-    TableBody,
-};
+pub use scene::{GripperBody, OpeningWord, RectangleBody, SceneBody, TableBody};
+pub use settings::{DestinationWord, GraspModelWord, ObjectiveWord, PlacementWord, SearchWord, SettingsBody};
 pub use statement::{AnyObject, PlanBody, StatedDeadlock, VerifyBody, VerifyRequest, read_plan, read_verify};
-pub use step::{ActionWord, GraspBody, PointBody, RelocationBody, StatedGraspBody, StatedPoint, StatedRelocation};
+pub use step::{
+    GraspBody, PickDropBody, PickDropWord, PickPlaceBody, PickPlaceWord, PointBody, StatedGraspBody, StatedPickDrop,
+    StatedPickPlace, StatedPoint, StatedStep, StepBody,
+};
 pub use survey::{SurveyBody, SurveyWord, SurveyedObject};
 pub use table1::{MethodBody, ModelBody, PaperBody, PaperMethodBody, PlansBody, Table1Body, Table1ColumnBody};
 pub use table2::{PaperRepositionBody, PlacementBody, Table2Body, Table2ColumnBody};

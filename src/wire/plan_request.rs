@@ -2,6 +2,7 @@
 
 use core::time::Duration;
 
+use super::code::ErrorCode;
 use super::finding;
 use super::limits::RequestLimits;
 use super::path::Path;
@@ -10,7 +11,7 @@ use super::reader::RequestFaults;
 use super::settings::StatedSettings;
 use singulate_planner::paper::Methods;
 use singulate_planner::plan::Settings;
-use singulate_planner::scene::{Scene, SceneDraft, SceneLimits};
+use singulate_planner::scene::{GoalDraft, Scene, SceneDraft, SceneLimits};
 
 /// A valid request.
 #[derive(Debug, Clone)]
@@ -58,7 +59,11 @@ impl StatedRequest {
         limits: &RequestLimits,
         faults: &mut RequestFaults,
     ) -> Option<PlanRequest> {
+        if self.settings.asks_for_the_paper() {
+            self.only_what_the_paper_knows(path, faults);
+        }
         let Self { scene_id, draft, settings } = self;
+        let draft = SceneDraft { destination: settings.destination(), ..draft };
         let overlap_tolerance = settings.overlap_tolerance(limits);
         match Scene::new(draft, &SceneLimits { overlap_tolerance, ..limits.scene }) {
             Ok((scene, warnings)) => {
@@ -70,6 +75,26 @@ impl StatedRequest {
                 findings.iter().for_each(|fault| finding::note(path, fault, faults));
                 None
             }
+        }
+    }
+
+    /// Reports each field that the paper's methods can't take into account.
+    fn only_what_the_paper_knows(&self, path: &Path<'_>, faults: &mut RequestFaults) {
+        let (draft, gripper, settings) = (&self.draft, path.field("gripper"), path.field("settings"));
+        let goal = draft.goal.as_ref().is_some_and(|goal| !matches!(goal, GoalDraft::Target(_)));
+        let fields = [
+            (goal, path.field("goal")),
+            (draft.drop_offs.is_some(), path.field("drop_offs")),
+            (draft.gripper.max_opening.is_some(), gripper.field("max_opening")),
+            (draft.gripper.opening.is_some(), gripper.field("opening")),
+            (self.settings.destination().is_some(), settings.field("destination")),
+        ];
+        for (_, field) in fields.iter().filter(|(stated, _)| *stated) {
+            let detail = format_args!(
+                "the paper's methods know only discs that are moved on the table for one target: leave this out, or \
+                 'grasp_model', 'search' and 'placement'"
+            );
+            faults.add(ErrorCode::DiscsOnly, field, detail);
         }
     }
 }

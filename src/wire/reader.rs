@@ -95,6 +95,15 @@ impl<'a> JsonNode<'a> {
         Some(Fields { object, path: self.path })
     }
 
+    /// The text of a field of an object, without any judgement.
+    pub(super) fn peek(&self, name: &str) -> Option<&'a str> {
+        let Json::Object(object) = self.value else { return None };
+        match object.get(name) {
+            Some(Json::String(text)) => Some(text),
+            _ => None,
+        }
+    }
+
     /// An object with any fields.
     pub(super) fn any_object(&self, faults: &mut RequestFaults) -> Option<()> {
         if matches!(self.value, Json::Object(_)) { Some(()) } else { self.wrong_type("an object", faults) }
@@ -220,6 +229,12 @@ impl Fields<'_> {
             return None;
         };
         read(JsonNode { value, path: &path }, faults)
+    }
+
+    /// Note that a field excludes another one that is there too.
+    pub(super) fn conflict(&self, name: &'static str, other: &'static str, faults: &mut RequestFaults) {
+        let detail = format_args!("there is a '{other}' too, and only one of them may be");
+        faults.add(ErrorCode::ConflictingFields, &self.path.field(name), detail);
     }
 
     /// Note that a field is missing.

@@ -2,14 +2,15 @@
 
 use super::code::ErrorCode;
 use super::limits::{MAX_SCENE_ID_LENGTH, RequestLimits};
-use super::object;
 use super::path::Path;
 use super::plan_request::{PlanRequest, StatedRequest};
 use super::problem::Problem;
-use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
+use super::reader::{FieldNames, Fields, JsonNode, RequestFaults, parse};
+use super::scene::OPENINGS;
 use super::settings::StatedSettings;
 use super::typed;
-use singulate_planner::scene::{Flaw, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
+use super::{drop_off, goal, object};
+use singulate_planner::scene::{Flaw, GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 
 /// Read a planning request.
 ///
@@ -32,10 +33,12 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<PlanRequest,
 }
 
 pub(super) const REQUEST: FieldNames =
-    FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "settings"]);
+    FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "goal", "drop_offs", "settings"]);
 const TABLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
 const RECTANGLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max"]);
-const GRIPPER: FieldNames = FieldNames::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance"]);
+const GRIPPER: FieldNames =
+    FieldNames::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance", "max_opening", "opening"]);
+
 /// A planning request; `names` includes its own fields.
 pub(super) fn request(
     node: JsonNode<'_>,
@@ -48,20 +51,36 @@ pub(super) fn request(
     let table = fields.required("table", faults, table);
     let gripper = fields.required("gripper", faults, gripper);
     let objects = fields.required("objects", faults, |node, faults| objects(node, limits, faults));
-    let target = fields.required("target", faults, |node, faults| node.text(faults));
+    let goal = wanted(&fields, faults);
+    let drop_offs = fields.stated("drop_offs", faults, |node, faults| node.list(faults, drop_off::read));
     let settings = fields.optional("settings", StatedSettings::absent(limits), faults, |node, faults| {
         Some(StatedSettings::read(node, limits, faults))
     });
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
         gripper: gripper.unwrap_or_default(),
-        // Without a list of objects, the target can't be checked.
-        target: target.filter(|_| objects.is_some()),
+        // Without a list of objects, the goal can't be checked.
+        goal: goal.filter(|_| objects.is_some()),
         objects: objects.unwrap_or_default(),
+        drop_offs,
+        destination: None,
     };
     let named = scene_id.is_some();
     let stated = StatedRequest { scene_id: scene_id.flatten(), draft, settings: settings? };
     stated.checked(node.path(), limits, faults).filter(|_| named)
+}
+
+/// The target, or the goal of another kind.
+fn wanted(fields: &Fields<'_>, faults: &mut RequestFaults) -> Option<GoalDraft> {
+    if !fields.states("goal") {
+        return fields.required("target", faults, |node, faults| node.text(faults)).map(GoalDraft::Target);
+    }
+    let goal = fields.stated("goal", faults, goal::read);
+    if fields.states("target") {
+        fields.conflict("goal", "target", faults);
+        return None;
+    }
+    goal
 }
 
 fn scene_id(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Option<String>> {
@@ -105,6 +124,8 @@ fn gripper(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<GripperDraf
         clearance: fields.number("clearance", faults),
         margin: fields.optional("margin", 0.0, faults, |node, faults| node.number(faults)),
         yaw_tolerance: fields.optional("yaw_tolerance", 0.0, faults, |node, faults| node.number(faults)),
+        max_opening: fields.stated("max_opening", faults, |node, faults| node.number(faults)),
+        opening: fields.stated("opening", faults, |node, faults| node.word(&OPENINGS, faults)),
     })
 }
 

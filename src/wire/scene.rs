@@ -6,12 +6,13 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::drop_off::DropOffBody;
+use super::goal::GoalBody;
 use super::object::ObjectBody;
-use crate::experiments::Repositioning;
-use singulate_planner::paper::{GraspModelName, SearchMethod};
-use singulate_planner::scene::{Gripper, Rectangle, Scene};
+use super::settings::{DestinationWord, SettingsBody};
+use singulate_planner::scene::{Gripper, Opening, Rectangle, Scene};
 
-/// A scene and how to plan for it: the body of a planning request.
+/// A scene and how to plan for it: the body of a planning request. One of `target` and `goal` is there.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({
@@ -45,7 +46,15 @@ pub struct SceneBody {
     pub objects: Vec<ObjectBody>,
     /// The id of the object to grasp. It must not be fixed.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
-    pub target: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<String>,
+    /// What is wanted, in place of a target.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal: Option<GoalBody>,
+    /// Places off the table, to which objects can be taken away. Default: none.
+    #[schema(max_items = 1000, example = json!([{"id": "tray", "capacity": 4, "accepts": ["plate-1"]}]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drop_offs: Option<Vec<DropOffBody>>,
     /// How to plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settings: Option<SettingsBody>,
@@ -112,94 +121,48 @@ pub struct GripperBody {
     #[schema(minimum = 0, maximum = 3.141592653589793, example = 0.0)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_tolerance: Option<f64>,
+    /// The distance between the inner faces of two open jaws, m; for more fingers twice their distance from the gripper's axis.
+    /// A wider object can't be grasped. Default: no limit.
+    #[schema(minimum = 0.000001, maximum = 1000, example = 0.14)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_opening: Option<f64>,
+    /// How far the fingers open before a grasp and after a release. Default: `fit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opening: Option<OpeningWord>,
 }
 
-/// How to plan. Each field may be absent.
-#[derive(Debug, Clone, Default, Serialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SettingsBody {
-    /// Which yaws an obstacle blocks. Default: `swept_finger`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub grasp_model: Option<GraspModelWord>,
-    /// How the least set of relocations is found. Default: `landmarks`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub search: Option<SearchWord>,
-    /// How new places are found. Default: `exact`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub placement: Option<PlacementWord>,
-    /// Which of the free places a relocated object goes to. Default: `far_from_target`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub objective: Option<ObjectiveWord>,
-    /// The time for waiting, planning and checking, from the arrival of the request, ms. Default: 1000.
-    #[schema(minimum = 1, maximum = 60000, example = 1000)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub time_limit_ms: Option<u32>,
-    /// How deep two discs may overlap and still pass as perception noise, m. Default: 0.001. At most 0.01 unless the
-    /// operator allows more.
-    #[schema(minimum = 0, maximum = 0.01, example = 0.003)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub overlap_tolerance: Option<f64>,
-}
-
-/// Which yaws an obstacle blocks.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+/// How far the fingers open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-#[schema(example = "swept_finger")]
-pub enum GraspModelWord {
-    /// The exact area that an open finger covers.
-    SweptFinger,
-    /// The paper's polar histogram (Eq. 1-4, 8-10): wider than the fingers, so that it calls graspable objects blocked.
-    Sector,
+#[schema(example = "fit")]
+pub enum OpeningWord {
+    /// To `clearance` beyond the object's edge.
+    Fit,
+    /// All the way, whatever the object: to `max_opening` / 2 + `clearance` from the axis. `max_opening` is required.
+    Full,
 }
 
-/// How the least set of relocations is found.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(example = "landmarks")]
-pub enum SearchWord {
-    /// Minimal landmarks and least hitting sets: exact, with a proof.
-    Landmarks,
-    /// The paper's Algorithm 1, read literally: may call a deadlock what is none, and may move more than is needed.
-    Lobs,
-    /// The paper's baseline, A* forward from what is graspable: exact, slow.
-    ForwardAstar,
-}
-
-/// How new places are found.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(example = "exact")]
-pub enum PlacementWord {
-    /// Candidates in the continuum.
-    Exact,
-    /// The paper's: section IV.C with Eq. 7 on an image of the table; releases are not checked.
-    Raster,
-}
-
-/// Which of the free places a relocated object goes to.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(example = "far_from_target")]
-pub enum ObjectiveWord {
-    /// As far from the target as possible.
-    FarFromTarget,
-    /// As near to its old place as possible.
-    ShortMoves,
-}
+/// How far the fingers open, by name.
+pub(super) const OPENINGS: [(&str, Opening); 2] = [("fit", Opening::Fit), ("full", Opening::Full)];
 
 impl SceneBody {
-    /// A scene for serialisation, with default settings.
+    /// A scene for serialisation, with default settings but for the destination.
     pub fn new(scene: &Scene, scene_id: Option<&str>) -> Self {
         let corners = RectangleBody::new(scene.table().top());
         let keep_out: Vec<_> = scene.table().keep_out().iter().copied().map(RectangleBody::new).collect();
         let RectangleBody { x_min, y_min, x_max, y_max } = corners;
+        let (target, goal) = GoalBody::of(scene);
+        let drop_offs: Vec<_> = scene.drop_offs().iter().map(|drop_off| DropOffBody::new(scene, drop_off)).collect();
+        let destination = DestinationWord::stated(scene);
         Self {
             scene_id: scene_id.map(str::to_owned),
             table: TableBody { x_min, y_min, x_max, y_max, keep_out: (!keep_out.is_empty()).then_some(keep_out) },
             gripper: GripperBody::new(scene.gripper()),
             objects: scene.objects().iter().map(ObjectBody::new).collect(),
-            target: scene.object(scene.target()).id().to_owned(),
-            settings: None,
+            target,
+            goal,
+            drop_offs: (!drop_offs.is_empty()).then_some(drop_offs),
+            settings: destination.map(|word| SettingsBody { destination: Some(word), ..SettingsBody::default() }),
         }
     }
 }
@@ -219,34 +182,8 @@ impl GripperBody {
             clearance: gripper.clearance(),
             margin: Some(gripper.margin()),
             yaw_tolerance: Some(gripper.yaw_tolerance()),
-        }
-    }
-}
-
-impl From<GraspModelName> for GraspModelWord {
-    fn from(model: GraspModelName) -> Self {
-        match model {
-            GraspModelName::SweptFinger => Self::SweptFinger,
-            GraspModelName::Sector => Self::Sector,
-        }
-    }
-}
-
-impl From<SearchMethod> for SearchWord {
-    fn from(method: SearchMethod) -> Self {
-        match method {
-            SearchMethod::Landmarks => Self::Landmarks,
-            SearchMethod::Lobs => Self::Lobs,
-            SearchMethod::ForwardAstar => Self::ForwardAstar,
-        }
-    }
-}
-
-impl From<Repositioning> for PlacementWord {
-    fn from(repositioning: Repositioning) -> Self {
-        match repositioning {
-            Repositioning::Raster => Self::Raster,
-            Repositioning::Exact => Self::Exact,
+            max_opening: gripper.max_opening(),
+            opening: (gripper.opening() == Opening::Full).then_some(OpeningWord::Full),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! A stated answer as JSON: its schema, and how it is read.
 
+use core::fmt;
+
 use utoipa::openapi::schema::AdditionalProperties;
 use utoipa::openapi::{ObjectBuilder, RefOr, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
@@ -13,11 +15,11 @@ use super::problem::Problem;
 use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
 use super::request::{REQUEST, request};
 use super::scene::SceneBody;
-use super::step::{self, StatedGraspBody, StatedRelocation};
+use super::step::{self, StatedGraspBody, StatedStep};
 use super::typed;
 use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
 use singulate_planner::cost::Cost;
-use singulate_planner::scene::Scene;
+use singulate_planner::scene::{Goal, Scene};
 use singulate_planner::statement::{Deadlock, Statement, Verdict};
 
 /// A scene and the answer to check.
@@ -47,7 +49,7 @@ pub struct PlanBody {
     /// Not checked.
     #[schema(example = "cell-4/17")]
     pub scene_id: Option<String>,
-    /// The target. It must be the scene's own.
+    /// The target. It must be the scene's own, or one of its candidates.
     #[schema(example = "plate-1")]
     pub target: Option<String>,
     /// The steps, in order.
@@ -55,7 +57,7 @@ pub struct PlanBody {
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
-    pub relocations: Vec<StatedRelocation>,
+    pub relocations: Vec<StatedStep>,
     /// The grasp of the target after all relocations.
     pub target_grasp: Option<StatedGraspBody>,
     /// The number of relocations.
@@ -75,6 +77,14 @@ pub struct PlanBody {
     /// If there is no plan: objects that would free the target, moved in this order, if there were places for them.
     #[schema(example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
+    /// Of a clearing: the lock of what can never be taken away.
+    pub stuck: Option<StatedDeadlock>,
+    /// Of a clearing: the ids of the objects that stay.
+    #[schema(example = json!(["plate-3"]))]
+    pub left: Option<Vec<String>>,
+    /// Of a clearing: the claim that no order takes more away.
+    #[schema(example = true)]
+    pub proven: Option<bool>,
     /// Not checked.
     #[schema(value_type = Option<Vec<AnyObject>>, example = json!([]))]
     pub warnings: (),
@@ -138,6 +148,9 @@ const PLAN: FieldNames = FieldNames::of(&[
     "landmarks",
     "deadlock",
     "needed",
+    "stuck",
+    "left",
+    "proven",
     "warnings",
     "statistics",
 ]);
@@ -167,49 +180,44 @@ pub(super) fn walked(body: &[u8], limits: &RequestLimits) -> Result<VerifyReques
     faults.judge(request)
 }
 
-/// Read a stated answer alone, or a part of its plan. Its `target`, if any, must be the scene's.
+/// Read a stated answer alone, or a part of its plan. Its `target`, if any, must be the scene's, or one of its candidates.
 ///
 /// # Errors
 /// A problem with every fault of the body.
 pub fn read_plan(body: &[u8], scene: &Scene, partial: bool) -> Result<Statement, Problem> {
     let (value, mut faults) = parse(body)?;
-    let target = scene.object(scene.target()).id();
-    let statement = plan(JsonNode::root(&value), Some(target), partial, &mut faults);
+    let statement = plan(JsonNode::root(&value), Some(scene), partial, &mut faults);
     faults.judge(statement)
 }
 
 fn verify(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<VerifyRequest> {
     let fields = node.fields(&VERIFY, faults)?;
     let request = fields.required("scene", faults, |node, faults| request(node, &REQUEST, limits, faults));
-    let target = request.as_ref().map(|PlanRequest { scene, .. }| scene.object(scene.target()).id());
+    let scene = request.as_ref().map(|PlanRequest { scene, .. }| scene);
     let position_tolerance = fields
         .optional("position_tolerance", 0.0, faults, |node, faults| node.ranged(POSITION_TOLERANCE_RANGE, faults));
     let partial = fields.optional("partial", false, faults, |node, faults| node.boolean(faults));
     // Where it can't be read, nothing is asked for that a part of a plan may lack.
     let lenient = partial.unwrap_or(true);
-    let statement = fields.required("plan", faults, |node, faults| plan(node, target, lenient, faults));
+    let statement = fields.required("plan", faults, |node, faults| plan(node, scene, lenient, faults));
     let terms = Terms { position_tolerance: position_tolerance?, partial: partial? };
     Some(VerifyRequest { statement: statement?, request: request?, terms })
 }
 
-fn plan(
-    node: JsonNode<'_>,
-    scene_target: Option<&str>,
-    partial: bool,
-    faults: &mut RequestFaults,
-) -> Option<Statement> {
+fn plan(node: JsonNode<'_>, scene: Option<&Scene>, partial: bool, faults: &mut RequestFaults) -> Option<Statement> {
     let fields = node.fields(&PLAN, faults)?;
     let verdict = fields.stated("verdict", faults, |node, faults| {
         node.word(&Verdict::ALL.map(|verdict| (verdict.as_str(), verdict)), faults)
     });
     fields.stated("scene_id", faults, |node, faults| node.text(faults));
-    fields.stated("target", faults, |node, faults| target(node, scene_target, faults));
+    let target = fields.stated("target", faults, |node, faults| target(node, scene, faults));
+    let grasps = scene.is_none_or(|scene| !scene.goal().candidates().is_empty());
     let relocations = fields.required("relocations", faults, |node, faults| {
         // Unreadable steps are missing from this list, but their faults refuse the whole body.
         Some(node.list(faults, |node, faults| step::read(node, faults).map(Some))?.into_iter().flatten().collect())
     });
     // Without a verdict, only the steps and the last grasp can be checked.
-    if !partial && !fields.states("verdict") && !fields.states("target_grasp") {
+    if !partial && grasps && !fields.states("verdict") && !fields.states("target_grasp") {
         fields.missing("target_grasp", faults);
     }
     fields.stated("warnings", faults, |node, faults| node.list(faults, |node, faults| node.any_object(faults)));
@@ -218,6 +226,7 @@ fn plan(
     Some(Statement {
         verdict,
         relocations,
+        target: target.filter(|_| scene.is_none_or(|scene| scene.target().is_none())),
         target_grasp: fields.stated("target_grasp", faults, step::read_grasp),
         cost: fields.stated("cost", faults, count),
         lower_bound: fields.stated("lower_bound", faults, count),
@@ -225,16 +234,34 @@ fn plan(
         landmarks: fields.stated("landmarks", faults, |node, faults| node.list(faults, ids)),
         deadlock: fields.stated("deadlock", faults, deadlock),
         needed: fields.stated("needed", faults, ids),
+        stuck: fields.stated("stuck", faults, deadlock),
+        left: fields.stated("left", faults, ids),
+        proven: fields.stated("proven", faults, |node, faults| node.boolean(faults)),
     })
 }
 
-fn target(node: JsonNode<'_>, scene_target: Option<&str>, faults: &mut RequestFaults) -> Option<()> {
+/// The target of a plan, which must go with the goal of the scene, if that is known.
+fn target(node: JsonNode<'_>, scene: Option<&Scene>, faults: &mut RequestFaults) -> Option<String> {
     let stated = node.text(faults)?;
-    if let Some(wanted) = scene_target.filter(|wanted| *wanted != stated) {
-        let detail = format_args!("the plan is for '{stated}', the scene's target is '{wanted}'");
-        faults.add(ErrorCode::TargetMismatch, node.path(), detail);
+    let Some(scene) = scene else { return Some(stated) };
+    let mut mismatch = |detail: fmt::Arguments<'_>| faults.add(ErrorCode::TargetMismatch, node.path(), detail);
+    match scene.goal() {
+        Goal::Target(wanted) => {
+            let wanted = scene.object(*wanted).id();
+            if wanted != stated {
+                mismatch(format_args!("the plan is for '{stated}', the scene's target is '{wanted}'"));
+            }
+        }
+        Goal::AnyOf(candidates) => {
+            if !candidates.iter().any(|candidate| scene.object(*candidate).id() == stated) {
+                mismatch(format_args!("the plan is for '{stated}', which is no candidate of the scene"));
+            }
+        }
+        Goal::AllOf(_) | Goal::Clear => {
+            mismatch(format_args!("the plan is for '{stated}', and the scene's goal is to take objects away"));
+        }
     }
-    Some(())
+    Some(stated)
 }
 
 fn deadlock(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Deadlock> {

@@ -7,17 +7,28 @@ use utoipa::ToSchema;
 use super::code::ErrorCode;
 use super::reader::{FieldNames, JsonNode, RequestFaults};
 use singulate_planner::scene::{COORDINATE_RANGE, Pose};
-use singulate_planner::statement::{PickPlace, StatedGrasp, Step};
+use singulate_planner::statement::{PickDrop, PickPlace, StatedGrasp, Step};
 
-const RELOCATION: FieldNames = FieldNames::of(&["action", "object", "from", "to", "grasp", "release", "gap"]);
+const PICK_PLACE: FieldNames = FieldNames::of(&["action", "object", "from", "to", "grasp", "release", "gap"]);
+const PICK_DROP: FieldNames = FieldNames::of(&["action", "object", "from", "grasp", "drop_off"]);
 const POINT: FieldNames = FieldNames::of(&["x", "y"]);
 const GRASP: FieldNames = FieldNames::of(&["yaw", "slack"]);
 
 /// One step of a plan. A client must refuse an action that it doesn't know.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
-pub struct RelocationBody<'a> {
+#[serde(untagged)]
+pub enum StepBody<'a> {
+    /// To another place on the table.
+    PickPlace(PickPlaceBody<'a>),
+    /// To a drop-off.
+    PickDrop(PickDropBody<'a>),
+}
+
+/// Pick an object up and place it elsewhere on the table.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct PickPlaceBody<'a> {
     /// The kind of step.
-    pub action: ActionWord,
+    pub action: PickPlaceWord,
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]
     pub object: &'a str,
@@ -35,13 +46,40 @@ pub struct RelocationBody<'a> {
     pub gap: Option<f64>,
 }
 
-/// The kind of step.
+/// Pick an object up and take it away to a drop-off.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct PickDropBody<'a> {
+    /// The kind of step.
+    pub action: PickDropWord,
+    /// The id of the object that is taken away.
+    #[schema(example = "plate-1")]
+    pub object: &'a str,
+    /// The object's centre before it is taken away.
+    #[schema(value_type = PointBody, required = true)]
+    pub from: Option<PointBody>,
+    /// The grasp there.
+    pub grasp: GraspBody,
+    /// The id of the drop-off that it is taken to.
+    #[schema(example = "tray")]
+    pub drop_off: &'a str,
+}
+
+/// The action of a step to another place on the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(example = "pick_place")]
-pub enum ActionWord {
+pub enum PickPlaceWord {
     /// Pick an object up and place it elsewhere.
     PickPlace,
+}
+
+/// The action of a step to a drop-off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(example = "pick_drop")]
+pub enum PickDropWord {
+    /// Pick an object up and take it away.
+    PickDrop,
 }
 
 /// A point on the table.
@@ -68,10 +106,20 @@ pub struct GraspBody {
 
 /// A step of an answer to check.
 #[derive(Debug, Clone, ToSchema)]
+#[serde(untagged)]
+pub enum StatedStep {
+    /// To another place on the table.
+    PickPlace(StatedPickPlace),
+    /// To a drop-off.
+    PickDrop(StatedPickDrop),
+}
+
+/// A step to another place on the table, of an answer to check.
+#[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct StatedRelocation {
+pub struct StatedPickPlace {
     /// The kind of step. Default: `pick_place`.
-    pub action: Option<ActionWord>,
+    pub action: Option<PickPlaceWord>,
     /// The id of the object that is moved.
     #[schema(example = "plate-2")]
     pub object: String,
@@ -86,6 +134,24 @@ pub struct StatedRelocation {
     /// Least distance to another object at the new place, edge to edge, m.
     #[schema(example = 0.031)]
     pub gap: Option<f64>,
+}
+
+/// A step to a drop-off, of an answer to check.
+#[derive(Debug, Clone, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatedPickDrop {
+    /// The kind of step.
+    pub action: PickDropWord,
+    /// The id of the object that is taken away.
+    #[schema(example = "plate-1")]
+    pub object: String,
+    /// The object's centre before it is taken away.
+    pub from: Option<StatedPoint>,
+    /// The grasp there.
+    pub grasp: StatedGraspBody,
+    /// The id of the drop-off that it is taken to.
+    #[schema(example = "tray")]
+    pub drop_off: String,
 }
 
 /// A point of an answer to check.
@@ -113,18 +179,25 @@ pub struct StatedGraspBody {
     pub slack: Option<f64>,
 }
 
-impl<'a> RelocationBody<'a> {
+impl<'a> StepBody<'a> {
     pub(super) fn new(step: &'a Step) -> Self {
         match step {
-            Step::PickPlace(PickPlace { object, from, to, grasp, release, gap }) => Self {
-                action: ActionWord::PickPlace,
+            Step::PickPlace(PickPlace { object, from, to, grasp, release, gap }) => Self::PickPlace(PickPlaceBody {
+                action: PickPlaceWord::PickPlace,
                 object,
                 from: from.map(PointBody::from),
                 to: (*to).into(),
                 grasp: (*grasp).into(),
                 release: (*release).into(),
                 gap: *gap,
-            },
+            }),
+            Step::PickDrop(PickDrop { object, from, grasp, drop_off }) => Self::PickDrop(PickDropBody {
+                action: PickDropWord::PickDrop,
+                object,
+                from: from.map(PointBody::from),
+                grasp: (*grasp).into(),
+                drop_off,
+            }),
         }
     }
 }
@@ -141,12 +214,26 @@ impl From<StatedGrasp> for GraspBody {
     }
 }
 
+/// An action that may be stated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Action {
+    PickPlace,
+    PickDrop,
+}
+
 pub(super) fn read(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Step> {
-    let fields = node.fields(&RELOCATION, faults)?;
-    // Where no action is named, it is the oldest one.
-    fields.stated("action", faults, |node, faults| node.word(&[("pick_place", ())], faults));
+    let actions = [("pick_place", Action::PickPlace), ("pick_drop", Action::PickDrop)];
+    // Where no action is named, or none that is known, it is the oldest one.
+    let is_drop = node.peek("action").is_some_and(|action| action == "pick_drop");
+    let fields = node.fields(if is_drop { &PICK_DROP } else { &PICK_PLACE }, faults)?;
+    fields.stated("action", faults, |node, faults| node.word(&actions, faults));
     let object = fields.required("object", faults, |node, faults| node.text(faults));
     let from = fields.stated("from", faults, point);
+    if is_drop {
+        let grasp = fields.required("grasp", faults, read_grasp);
+        let drop_off = fields.required("drop_off", faults, |node, faults| node.text(faults));
+        return Some(Step::PickDrop(PickDrop { object: object?, from, grasp: grasp?, drop_off: drop_off? }));
+    }
     let to = fields.required("to", faults, point);
     let grasp = fields.required("grasp", faults, read_grasp);
     let release = fields.required("release", faults, read_grasp);

@@ -7,10 +7,10 @@ use singulate_planner::cost::Cost;
 use singulate_planner::plan::{SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::Scene;
 
-/// Every movable object as the target. No places are searched for.
+/// Every object that can be grasped as the target. No places are searched for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct SurveyBody {
-    /// The movable objects, in the order of the request.
+    /// The objects that are neither fixed nor too wide, in the order of the request.
     #[schema(example = json!([{"id": "plate-1", "verdict": "relocate", "lower_bound": 2, "optimal": true}]))]
     pub objects: Vec<SurveyedObject>,
 }
@@ -54,7 +54,7 @@ impl SurveyBody {
 
     /// The survey with nothing decided, for a time-out before it began.
     pub fn timed_out(scene: &Scene) -> Self {
-        let movable = scene.objects().iter().filter(|object| !object.fixed());
+        let movable = scene.objects().iter().filter(|object| object.can_be_grasped());
         let objects = movable.map(|object| SurveyedObject {
             id: object.id().to_owned(),
             verdict: SurveyWord::TimedOut,

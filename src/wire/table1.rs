@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::scene::{GraspModelWord, SearchWord};
+use super::settings::{GraspModelWord, SearchWord};
 use crate::experiments::{
     ConfidenceInterval, ExperimentSettings, MethodFigures, ModelFigures, PlanFigures, Printed, Spread, TABLE1_EPISODES,
     Table1Column,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::scene::PlacementWord;
+use super::settings::PlacementWord;
 use super::table1::{mean, median, rate};
 use crate::experiments::{ExperimentSettings, PlacementFigures, PrintedReposition, TABLE2_EPISODES, Table2Column};
 

@@ -9,14 +9,17 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
+use super::drop_off::DropOffFields;
+use super::goal;
 use super::limits::{MAX_CALLBACK_URL_LENGTH, MAX_SCENE_ID_LENGTH, PRIORITY_RANGE, RequestLimits};
 use super::object::ObjectFields;
 use super::plan_request::StatedRequest;
-use super::reader::{JsonNode, parse};
+use super::reader::{JsonNode, RequestFaults, parse};
+use super::scene::OPENINGS;
 use super::settings::StatedSettings;
 use super::walk::MAX_DEPTH;
 use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
-use singulate_planner::scene::{GripperDraft, RectangleDraft, SceneDraft, TableDraft};
+use singulate_planner::scene::{GoalDraft, GripperDraft, Opening, RectangleDraft, SceneDraft, TableDraft};
 
 /// How deep a plan may be nested: the body of a verification is one level more.
 const MAX_PLAN_NESTING: usize = MAX_DEPTH - 1;
@@ -125,7 +128,10 @@ struct RequestFields<'t> {
     table: Object<TableFields>,
     gripper: Object<GripperFields>,
     objects: Vec<Object<ObjectFields>>,
-    target: String,
+    target: Option<String>,
+    #[serde(borrow)]
+    goal: Option<&'t RawValue>,
+    drop_offs: Option<Vec<Object<DropOffFields>>>,
     #[serde(borrow)]
     settings: Option<&'t RawValue>,
     #[serde(default, deserialize_with = "present")]
@@ -161,12 +167,15 @@ struct GripperFields {
     clearance: f64,
     margin: Option<f64>,
     yaw_tolerance: Option<f64>,
+    max_opening: Option<f64>,
+    opening: Option<String>,
 }
 
 impl RequestFields<'_> {
     /// `None` if it has fields of a job, or faulty settings.
     fn scene(self, limits: &RequestLimits) -> Option<StatedRequest> {
-        let Self { scene_id, table, gripper, objects, target, settings, callback_url, priority } = self;
+        let Self { scene_id, table, gripper, objects, target, goal, drop_offs, settings, callback_url, priority } =
+            self;
         let named = scene_id.as_ref().is_none_or(|id| id.chars().nth(MAX_SCENE_ID_LENGTH).is_none());
         if !named || callback_url.is_some() || priority.is_some() || objects.len() > limits.scene.max_objects {
             return None;
@@ -177,9 +186,11 @@ impl RequestFields<'_> {
         };
         let draft = SceneDraft {
             table: table.0.into(),
-            gripper: gripper.0.into(),
+            gripper: gripper.0.draft()?,
             objects: objects.into_iter().map(|Object(fields)| fields.into()).collect(),
-            target: Some(target),
+            goal: Some(wanted(target, goal)?),
+            drop_offs: drop_offs.map(|list| list.into_iter().map(|Object(fields)| fields.into()).collect()),
+            destination: None,
         };
         Some(StatedRequest { scene_id, draft, settings })
     }
@@ -187,9 +198,23 @@ impl RequestFields<'_> {
 
 /// Settings are few and have many rules, so they are read by the walk here too.
 fn settings(text: &RawValue, limits: &RequestLimits) -> Option<StatedSettings> {
+    walked(text, |node, faults| Some(StatedSettings::read(node, limits, faults)))
+}
+
+/// The target, or the goal of another kind; `None` unless one of them is there.
+fn wanted(target: Option<String>, goal: Option<&RawValue>) -> Option<GoalDraft> {
+    match (target, goal) {
+        (Some(target), None) => Some(GoalDraft::Target(target)),
+        (None, Some(text)) => walked(text, goal::read),
+        _ => None,
+    }
+}
+
+/// A part of the body, read by the walk.
+fn walked<T>(text: &RawValue, read: impl FnOnce(JsonNode<'_>, &mut RequestFaults) -> Option<T>) -> Option<T> {
     let (value, mut faults) = parse(text.get().as_bytes()).ok()?;
-    let stated = StatedSettings::read(JsonNode::root(&value), limits, &mut faults);
-    faults.judge(Some(stated)).ok()
+    let stated = read(JsonNode::root(&value), &mut faults);
+    faults.judge(stated).ok()
 }
 
 impl From<TableFields> for TableDraft {
@@ -205,14 +230,23 @@ impl From<RectangleFields> for RectangleDraft {
     }
 }
 
-impl From<GripperFields> for GripperDraft {
-    fn from(fields: GripperFields) -> Self {
-        Self {
+impl GripperFields {
+    /// `None` if a word is unknown.
+    fn draft(self) -> Option<GripperDraft> {
+        let fields = self;
+        let known = |word: String| OPENINGS.iter().find(|(name, _)| *name == word).map(|(_, opening)| *opening);
+        let opening: Option<Opening> = match fields.opening {
+            Some(word) => Some(known(word)?),
+            None => None,
+        };
+        Some(GripperDraft {
             fingers: Some(fields.fingers),
             finger_width: Some(fields.finger_width),
             clearance: Some(fields.clearance),
             margin: Some(fields.margin.unwrap_or_default()),
             yaw_tolerance: Some(fields.yaw_tolerance.unwrap_or_default()),
-        }
+            max_opening: fields.max_opening,
+            opening,
+        })
     }
 }

@@ -5,7 +5,7 @@ use singulate::experiments::{Crowding, Recipe, generate};
 use singulate::wire::SceneBody;
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::{SweptFinger, complete, derivable};
-use singulate_planner::scene::{GripperDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::scene::{GoalDraft, GripperDraft, Scene, SceneDraft, SceneLimits};
 
 /// One request for a job.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ pub(crate) fn short(key: String, seed: u64) -> Request {
 
 /// One of the paper's searches runs out this time: some tens of milliseconds.
 fn brief(key: String, time_limit_ms: u64) -> Request {
-    let draft = SceneDraft { target: Some("o9".to_owned()), ..pressed(100, 1.618, 0.024) };
+    let draft = SceneDraft { goal: Some(GoalDraft::Target("o9".to_owned())), ..pressed(100, 1.618, 0.024) };
     Request::new(key, draft, json!({"search": "lobs", "time_limit_ms": time_limit_ms}), 0)
 }
 
@@ -51,7 +51,7 @@ fn brief(key: String, time_limit_ms: u64) -> Request {
 /// table with as many pixels as may be.
 pub(crate) fn long(key: String, time_limit_ms: u64) -> Request {
     let mut draft = pressed(5500, 9.9, 0.022);
-    draft.target = Some(freed_last(&draft));
+    draft.goal = Some(GoalDraft::Target(freed_last(&draft)));
     Request::new(key, draft, json!({"placement": "raster", "time_limit_ms": time_limit_ms}), 1)
 }
 

@@ -175,7 +175,7 @@ fn in_the_papers_cases_its_searches_find_the_optimum() {
 #[test]
 fn a_search_that_outgrows_its_memory_says_so() {
     let scene = fixture("not_optimal");
-    let (base, target) = (base(&scene, &SweptFinger), scene.target());
+    let (base, target) = (base(&scene, &SweptFinger), scene.target().unwrap());
     assert_eq!(lobs(&base, target, 3, &Budget::unlimited()), Ok(Conclusion::TooLarge));
     assert_eq!(forward_astar(&base, target, 3, &Budget::unlimited()), Ok(Conclusion::TooLarge));
 }

@@ -7,7 +7,7 @@ use singulate_planner::check::FaultCode::{self, *};
 use singulate_planner::geometry::Grasp;
 use singulate_planner::knowledge::SweptFinger;
 use singulate_planner::paper::{DEFAULT_RESOLUTION, Raster, reposition};
-use singulate_planner::placement::{Arrangement, Relocation};
+use singulate_planner::placement::{Arrangement, Move, Relocation};
 use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::{ObjectIndex, Scene, SceneDraft, SceneLimits};
 use singulate_planner::search::SILENT;
@@ -17,7 +17,8 @@ use crate::check::scenes::{Builder, codes, judge};
 
 fn stated(scene: &Scene, arrangement: &Arrangement) -> Statement {
     let grasp = |grasp: Grasp| StatedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
-    let step = |step: &Relocation| {
+    let step = |step: &Move| {
+        let Move::Place(step) = step else { unreachable!("the paper knows no drop-offs") };
         Step::PickPlace(PickPlace {
             object: scene.object(step.object).id().to_owned(),
             from: Some(step.from),
@@ -27,14 +28,14 @@ fn stated(scene: &Scene, arrangement: &Arrangement) -> Statement {
             gap: Some(step.gap),
         })
     };
-    let target_grasp = Some(grasp(arrangement.target_grasp));
-    let relocations = Some(arrangement.relocations.iter().map(step).collect());
+    let target_grasp = arrangement.target_grasp.map(|(_, found)| grasp(found));
+    let relocations = Some(arrangement.moves.iter().map(step).collect());
     Statement { relocations, target_grasp, ..Statement::default() }
 }
 
 fn repositioned(scene: &Scene, order: &[ObjectIndex]) -> Option<Arrangement> {
     let raster = Raster::new(DEFAULT_RESOLUTION, scene.table()).unwrap();
-    reposition(scene, order, &raster, &SweptFinger, &Budget::unlimited()).unwrap()
+    reposition(scene, scene.target().unwrap(), order, &raster, &SweptFinger, &Budget::unlimited()).unwrap()
 }
 
 /// All but one place is in a keep-out. Three others stand round it, 30 mm away, each of which takes 48° of the fingers'
@@ -58,7 +59,8 @@ fn a_place_where_the_gripper_cannot_open_is_taken_all_the_same() {
     }
     let scene = scene.build("t");
     let arrangement = repositioned(&scene, &[ObjectIndex::new(1)]).unwrap();
-    let to = arrangement.relocations[0].to.at;
+    let Move::Place(Relocation { to, .. }) = arrangement.moves[0] else { unreachable!("no drop-offs") };
+    let to = to.at;
     assert!((to - Point2::new(1.0, 1.0)).norm() < 0.007, "{to}");
     assert_eq!(codes(&judge(&scene, &stated(&scene, &arrangement))), [ReleaseBlocked]);
 }

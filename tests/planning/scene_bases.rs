@@ -5,7 +5,9 @@ use singulate_planner::budget::Budget;
 use singulate_planner::cost::Cost;
 use singulate_planner::knowledge::{KnowledgeBase, SweptFinger, complete, derivable, relevant};
 use singulate_planner::plan::{Settings, plan};
-use singulate_planner::scene::{GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft};
+use singulate_planner::scene::{
+    GoalDraft, GripperDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft,
+};
 use singulate_planner::search::{Restriction, SILENT, SearchOutcome, least};
 use singulate_planner::statement::{Statement, Verdict};
 
@@ -19,6 +21,7 @@ fn crowd(seed: u64) -> Scene {
         clearance: Some(0.02 + 0.03 * share(3, 3)),
         margin: Some(0.002 * share(7, 2)),
         yaw_tolerance: Some(0.05 * share(11, 3)),
+        ..GripperDraft::default()
     };
     let recipe = Recipe {
         objects: usize::try_from(5 + pick(13, 7)).unwrap(),
@@ -111,7 +114,7 @@ fn a_lock_of_a_small_crowd_holds_and_no_part_of_its_core_does() {
         let greatest = members(&lock.blocked);
         let (blocked, core) = (set(&greatest), set(&members(&lock.core)));
         assert!(holds(blocked) && holds(core) && core & !blocked == 0, "seed {seed}: {lock:?}");
-        let target = 1 << scene.target().get();
+        let target = 1 << scene.target().unwrap().get();
         let parts = (0..core).filter(|part| part & !core == 0 && part & target != 0);
         assert_eq!(parts.into_iter().find(|&part| holds(part)), None, "seed {seed}: {lock:?}");
         let closure = derivable(&base, |_| false, &Budget::unlimited()).unwrap();
@@ -140,7 +143,7 @@ fn beside_a_fixed_plate(fingers: u32) -> SceneDraft {
         fixed,
     };
     draft.objects = vec![plate("wanted", 0.5, false), plate("plate", 0.65, true)];
-    draft.target = Some("wanted".into());
+    draft.goal = Some(GoalDraft::Target("wanted".into()));
     draft
 }
 

@@ -6,7 +6,7 @@ use singulate_planner::check::check;
 use singulate_planner::cost::Cost;
 use singulate_planner::plan::{Objective, Settings, plan};
 use singulate_planner::scene::{
-    Footprint, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
+    Footprint, GoalDraft, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
 };
 use singulate_planner::search::SILENT;
 use singulate_planner::statement::{PickPlace, Statement, Step, Verdict};
@@ -35,7 +35,7 @@ fn row(width: f64, margin: f64) -> SceneDraft {
     };
     let apart = 0.08 + margin.max(0.01);
     draft.objects = [("left", 0.5 - apart), ("middle", 0.5), ("right", 0.5 + apart)].map(disc).into();
-    draft.target = Some("middle".to_owned());
+    draft.goal = Some(GoalDraft::Target("middle".to_owned()));
     draft
 }
 
@@ -62,7 +62,7 @@ fn assert_optimal(stated: &Statement) {
 #[test]
 fn twenty_thousand_keep_outs_are_not_paired_with_each_other() {
     let mut draft = generate(&Recipe { objects: 25, table: (1.4, 0.7), ..Recipe::default() }, 4).unwrap();
-    draft.target = Some("o15".into());
+    draft.goal = Some(GoalDraft::Target("o15".into()));
     draft.table.top.x_max = Some(2.4);
     let side = |at: u32, step: f64| (Some(step * f64::from(at)), Some(step * f64::from(at) + 1e-4));
     for n in 0..20_000_u32 {
@@ -101,7 +101,7 @@ fn stair(steps: u32) -> SceneDraft {
         }
     }
     draft.objects = objects;
-    draft.target = Some("step-0".into());
+    draft.goal = Some(GoalDraft::Target("step-0".into()));
     draft
 }
 

@@ -7,10 +7,11 @@ use crate::budget::{Interrupted, Ticker};
 use crate::cost::Cost;
 use crate::scene::{ObjectIndex, Scene};
 
-use super::chain::{Chain, Freed};
+use super::allowed::Allowed;
+use super::chain::{Chain, Reached};
 use super::fault::{FaultCode, Faults};
 use super::hitting::{MOST_KEPT, least_hits};
-use super::names::{ObjectNames, relocatable};
+use super::names::ObjectNames;
 
 /// The most lifted objects that a fault names.
 const MAX_NAMED: usize = 5;
@@ -36,15 +37,15 @@ struct Landmark {
 pub(super) fn prove(
     scene: &Scene,
     stated: &[Vec<String>],
-    names: &ObjectNames<'_>,
+    (names, allowed): (&ObjectNames<'_>, &Allowed<'_>),
     chain: &mut Chain<'_>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Proof {
     let (mut sound, mut complete) = (Sound::default(), true);
-    let tried = readable(scene, stated, names, faults, ticker).and_then(|landmarks| {
+    let tried = readable(scene, stated, (names, allowed), faults, ticker).and_then(|landmarks| {
         for landmark in landmarks {
-            sound.try_one(scene, landmark, chain, faults, ticker)?;
+            sound.try_one(scene, allowed, landmark, chain, faults, ticker)?;
         }
         Ok(())
     });
@@ -59,14 +60,14 @@ pub(super) fn prove(
 fn readable(
     scene: &Scene,
     stated: &[Vec<String>],
-    names: &ObjectNames<'_>,
+    named: (&ObjectNames<'_>, &Allowed<'_>),
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Result<Vec<Landmark>, Interrupted> {
     let mut landmarks = Vec::new();
     for (at, ids) in stated.iter().enumerate() {
         ticker.step(1 + ids.len() / 8)?;
-        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(scene, at, id, names, faults)).collect();
+        let members: Option<Vec<ObjectIndex>> = ids.iter().map(|id| member(scene, at, id, named, faults)).collect();
         let Some(mut members) = members else { continue };
         members.sort_unstable();
         members.dedup();
@@ -80,27 +81,39 @@ fn readable(
     Ok(landmarks)
 }
 
-fn member(scene: &Scene, at: usize, id: &str, names: &ObjectNames<'_>, faults: &mut Faults) -> Option<ObjectIndex> {
+fn member(
+    scene: &Scene,
+    at: usize,
+    id: &str,
+    (names, allowed): (&ObjectNames<'_>, &Allowed<'_>),
+    faults: &mut Faults,
+) -> Option<ObjectIndex> {
     let object = names.known(id, None, faults)?;
-    if relocatable(scene, object) {
+    if allowed.relocatable(scene, object) {
         return Some(object);
     }
-    let detail = || format!("landmark {at} holds it, and no plan relocates the target or a fixed object");
+    let why = match scene.goal().is_candidate(object) || scene.object(object).fixed() {
+        true => "no plan relocates the target or a fixed object",
+        false => "it can't be moved by any plan",
+    };
+    let detail = || format!("landmark {at} holds it, and {why}");
     faults.of_object(FaultCode::BadLandmark, id, detail);
     None
 }
 
-/// A sentence that describes how the target is freed.
-fn how_freed(scene: &Scene, Freed { yaw, lifted }: &Freed) -> String {
+/// A sentence that describes how the goal is reached.
+fn how(scene: &Scene, Reached { grasped, lifted }: &Reached) -> String {
     let named: Vec<_> =
         lifted.iter().take(MAX_NAMED).map(|object| format!("'{}'", scene.object(*object).id())).collect();
     let more = match lifted.len() - named.len() {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    match named.as_slice() {
-        [] => format!("the target is free at yaw {yaw:.9} rad"),
-        _ => format!("the target is free at yaw {yaw:.9} rad once {}{more} are lifted", named.join(", ")),
+    let once = if named.is_empty() { String::new() } else { format!(" once {}{more} are lifted", named.join(", ")) };
+    match grasped {
+        Some((_, way)) if scene.target().is_some() => format!("{}{once}", way.frees("the target")),
+        Some((object, way)) => format!("{}{once}", way.frees(&format!("'{}'", scene.object(*object).id()))),
+        None => format!("all that is wanted can be taken away{once}"),
     }
 }
 
@@ -113,10 +126,11 @@ struct Sound {
 }
 
 impl Sound {
-    /// Checks one landmark: it is sound if the target stays blocked while its members are held.
+    /// Checks one landmark: it is sound if the goal is not reached while its members are held.
     fn try_one(
         &mut self,
         scene: &Scene,
+        allowed: &Allowed<'_>,
         landmark: Landmark,
         chain: &mut Chain<'_>,
         faults: &mut Faults,
@@ -126,8 +140,8 @@ impl Sound {
         if self.covers(&members, ticker)? {
             return Ok(());
         }
-        if let Some(freed) = chain.frees_target(scene, &members, ticker)? {
-            let detail = || format!("landmark {at} can be left as it stands: {}", how_freed(scene, &freed));
+        if let Some(reached) = chain.reaches_goal(scene, allowed, &members, ticker)? {
+            let detail = || format!("landmark {at} can be left as it stands: {}", how(scene, &reached));
             faults.of_answer(FaultCode::LandmarkRefuted, detail);
             return Ok(());
         }

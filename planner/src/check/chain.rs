@@ -1,13 +1,14 @@
-//! Goal-directed forward chaining: can the target be freed while some objects are held?
+//! Goal-directed forward chaining: can the goal be reached while some objects are held?
 //!
-//! Only objects that could matter are visited: the target first, then the blockers of each visited object that is not
-//! free yet. So in a crowd of thousands a landmark is checked among its neighbours.
+//! Only objects that could matter are visited: those that the goal names first, then the blockers of each visited object that
+//! is not free yet. So in a crowd of thousands a landmark is checked among its neighbours.
 
 use crate::budget::{Interrupted, Ticker};
 use crate::scene::{ObjectIndex, Scene};
 
+use super::allowed::Allowed;
 use super::rings::{Ring, Rings};
-use super::ways::way;
+use super::ways::{Way, grasp, way};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Visit {
@@ -21,7 +22,7 @@ enum Visit {
     Lifted,
 }
 
-/// The chaining of one scene. Its rings are shared by all questions, whatever their targets.
+/// The chaining of one scene. Its rings are shared by all questions, whatever their goals.
 pub(super) struct Chain<'s> {
     rings: Rings<'s>,
     /// Per object its state, and the number of the question that set it: a new question needs no reset.
@@ -32,12 +33,12 @@ pub(super) struct Chain<'s> {
     lifted: Vec<ObjectIndex>,
 }
 
-/// How a target is freed.
+/// How a goal is reached.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Freed {
-    /// A free yaw of the target, rad.
-    pub(super) yaw: f64,
-    /// The objects lifted before it, in order. Not all need have to do with the target.
+pub(super) struct Reached {
+    /// The object that is grasped in the end, and how; `None` where all that is wanted was lifted.
+    pub(super) grasped: Option<(ObjectIndex, Way)>,
+    /// The objects lifted, in order. Not all need have to do with the goal.
     pub(super) lifted: Vec<ObjectIndex>,
 }
 
@@ -51,47 +52,57 @@ impl<'s> Chain<'s> {
         &mut self.rings
     }
 
-    /// Lifts objects one after the other, but never the target, a fixed object or one that is `held`. Returns how the
-    /// target becomes free, or `None` if it stays blocked. `scene` is the scene of the rings, with any target.
-    pub(super) fn frees_target(
+    /// Lifts objects one after the other, but none that may not be moved or that is `held`. Returns how the goal is reached, or
+    /// `None` if it is not. `scene` is the scene of the rings, with any goal.
+    pub(super) fn reaches_goal(
         &mut self,
         scene: &Scene,
+        allowed: &Allowed<'_>,
         held: &[ObjectIndex],
         ticker: &mut Ticker<'_>,
-    ) -> Result<Option<Freed>, Interrupted> {
-        ticker.step(1 + held.len() / 100)?;
+    ) -> Result<Option<Reached>, Interrupted> {
+        let goal = scene.goal();
+        ticker.step(1 + (held.len() + goal.named().len()) / 100)?;
         self.question += 1;
         self.queue.clear();
         self.lifted.clear();
         for object in held {
             self.set(*object, Visit::Held);
         }
-        let target = scene.target();
-        self.enqueue(target);
+        let mut wanted = goal.wanted_away().len();
+        for &object in goal.named() {
+            if self.state(object).is_none() {
+                self.enqueue(object);
+            }
+        }
         while let Some(object) = self.queue.pop() {
             let ring = self.rings.ring(object, ticker)?;
             ticker.step(1 + ring.len() / 64)?;
             let stands = |other| self.state(other) != Some(Visit::Lifted);
-            if object == target {
-                if let Some(yaw) = self.rings.free_yaw(&ring, stands) {
-                    return Ok(Some(Freed { yaw, lifted: self.lifted.clone() }));
+            if goal.is_candidate(object) {
+                if let Some(way) = grasp(&self.rings, &ring, stands) {
+                    return Ok(Some(Reached { grasped: Some((object, way)), lifted: self.lifted.clone() }));
                 }
-                self.wait(scene, object, &ring);
+                self.wait(scene, allowed, object, &ring);
             } else if way(&self.rings, &ring, stands).is_some() {
                 ticker.step(self.rings.watchers(object).len() / 50)?;
                 self.lift(object);
+                wanted -= usize::from(goal.wants_away(object));
+                if wanted == 0 && !goal.wanted_away().is_empty() {
+                    return Ok(Some(Reached { grasped: None, lifted: self.lifted.clone() }));
+                }
             } else {
-                self.wait(scene, object, &ring);
+                self.wait(scene, allowed, object, &ring);
             }
         }
         Ok(None)
     }
 
     /// The object waits, so its blockers are visited.
-    fn wait(&mut self, scene: &Scene, object: ObjectIndex, ring: &Ring) {
+    fn wait(&mut self, scene: &Scene, allowed: &Allowed<'_>, object: ObjectIndex, ring: &Ring) {
         self.set(object, Visit::Waiting);
         for other in ring.blockers() {
-            if self.state(other).is_none() && !scene.object(other).fixed() {
+            if self.state(other).is_none() && allowed.relocatable(scene, other) {
                 self.enqueue(other);
             }
         }
@@ -140,12 +151,13 @@ mod tests {
         let mut lifted = vec![false; scene.objects().len()];
         loop {
             let before = lifted.clone();
-            for object in scene.indices().filter(|object| !held.contains(object) && *object != scene.target()) {
+            for object in scene.indices().filter(|object| !held.contains(object) && !scene.goal().is_candidate(*object))
+            {
                 let ring = rings.ring(object, ticker).unwrap();
                 lifted[object.get()] |= rings.free_yaw(&ring, |other| !lifted[other.get()]).is_some();
             }
             if lifted == before {
-                let ring = rings.ring(scene.target(), ticker).unwrap();
+                let ring = rings.ring(scene.target().unwrap(), ticker).unwrap();
                 return rings.free_yaw(&ring, |other| !lifted[other.get()]).is_some();
             }
         }
@@ -161,15 +173,15 @@ mod tests {
             let mut discs = vec![(0.5, 0.5, 0.05)];
             discs.extend(others);
             let scene = TestScene::new(fingers).scatter(&discs).build("d0");
-            let start = Tree::of_start(&scene);
+            let (start, allowed) = (Tree::of_start(&scene), Allowed::new(&scene));
             let (budget, count) = (Budget::unlimited(), scene.objects().len());
             let mut ticker = Ticker::new(&budget);
             let mut rings = Rings::new(&scene, &start, Leaning::Blocked);
             let mut chain = Chain::new(Rings::new(&scene, &start, Leaning::Blocked));
             for hold in holds {
                 let held: Vec<_> = hold.into_iter().filter(|at| *at < count).map(ObjectIndex::new).collect();
-                let frees = chain.frees_target(&scene, &held, &mut ticker).unwrap();
-                prop_assert_eq!(frees.is_some(), naive(&scene, &mut rings, &held, &mut ticker));
+                let reached = chain.reaches_goal(&scene, &allowed, &held, &mut ticker).unwrap();
+                prop_assert_eq!(reached.is_some(), naive(&scene, &mut rings, &held, &mut ticker));
             }
         }
     }

@@ -82,6 +82,28 @@ pub enum FaultCode {
     NeededUnconfirmed,
     /// Time ran out before all steps were replayed.
     ReplayUnconfirmed,
+    /// The object of a step is wider than the hand opens.
+    TooWide,
+    /// The object of a step was taken away before.
+    AlreadyGone,
+    /// A step puts aside what may only be taken away, or takes away what may only be put aside.
+    WrongDestination,
+    /// A drop-off's id names none of the scene.
+    UnknownDropOff,
+    /// The drop-off does not accept the object.
+    NotAccepted,
+    /// The drop-off holds as many objects as it takes.
+    OverCapacity,
+    /// An object that is to be taken away still stands on the table.
+    WantedLeft,
+    /// The verdict does not go with the goal, or with what is left.
+    WrongVerdict,
+    /// `left` is not what the steps leave.
+    WrongLeft,
+    /// An order takes more away, or it is shown that none does and the answer says otherwise.
+    WrongProven,
+    /// It could not be confirmed that no order takes more away.
+    ProvenUnconfirmed,
 }
 
 impl FaultCode {
@@ -89,7 +111,11 @@ impl FaultCode {
     pub fn means_late(self) -> bool {
         matches!(
             self,
-            Self::BoundUnconfirmed | Self::LockUnconfirmed | Self::NeededUnconfirmed | Self::ReplayUnconfirmed
+            Self::BoundUnconfirmed
+                | Self::LockUnconfirmed
+                | Self::NeededUnconfirmed
+                | Self::ReplayUnconfirmed
+                | Self::ProvenUnconfirmed
         )
     }
 
@@ -116,6 +142,17 @@ impl FaultCode {
         match self {
             Self::UnknownObject => "unknown_object",
             Self::FixedObjectMoved => "fixed_object_moved",
+            Self::TooWide => "too_wide",
+            Self::AlreadyGone => "already_gone",
+            Self::WrongDestination => "wrong_destination",
+            Self::UnknownDropOff => "unknown_drop_off",
+            Self::NotAccepted => "not_accepted",
+            Self::OverCapacity => "over_capacity",
+            Self::WantedLeft => "wanted_left",
+            Self::WrongVerdict => "wrong_verdict",
+            Self::WrongLeft => "wrong_left",
+            Self::WrongProven => "wrong_proven",
+            Self::ProvenUnconfirmed => "proven_unconfirmed",
             Self::TargetMoved => "target_moved",
             Self::NumberOutOfRange => "number_out_of_range",
             Self::WrongFrom => "wrong_from",
@@ -156,8 +193,12 @@ pub struct Report {
     pub proven_bound: Cost,
     /// The stated landmarks found sound, none a superset of another: they alone prove `proven_bound`.
     pub sound_landmarks: Vec<Vec<ObjectIndex>>,
-    /// The first step with a fault; the number of steps if it is the final grasp of the target.
+    /// The first step with a fault; the number of steps if it is the final grasp, or an object that should have gone.
     pub first_failing_step: Option<usize>,
+    /// The number of steps that were replayed before time ran out; all of them where it did not.
+    pub replayed: usize,
+    /// True if it was shown that no order takes more objects away.
+    pub clearing_proven: bool,
     /// True if the budget ended before everything was checked.
     pub interrupted: bool,
 }

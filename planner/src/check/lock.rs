@@ -1,25 +1,27 @@
-//! Checks a stated deadlock: its members, among them the target, block each other against every action of `ways`.
+//! Checks stated locks: their members, among them what is wanted, block each other against every action of `ways`.
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{Goal, ObjectIndex, Scene};
 use crate::statement::{Deadlock, Statement};
 
+use super::allowed::Allowed;
 use super::fault::{FaultCode, Faults};
 use super::names::ObjectNames;
 use super::rings::Rings;
 use super::ways::{grasp, way};
 
-/// Both locks of a stated deadlock.
+/// Both locks of a stated deadlock, or of what is stuck in a clearing.
 pub(super) fn check(
     scene: &Scene,
-    names: &ObjectNames<'_>,
+    named: (&ObjectNames<'_>, &Allowed<'_>),
     statement: &Statement,
     rings: &mut Rings<'_>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Result<(), Interrupted> {
-    let Some(stated) = &statement.deadlock else { return Ok(()) };
-    let checked = both(scene, names, stated, rings, faults, ticker);
+    let stated = if *scene.goal() == Goal::Clear { &statement.stuck } else { &statement.deadlock };
+    let Some(stated) = stated else { return Ok(()) };
+    let checked = both(scene, named, stated, rings, faults, ticker);
     if checked.is_err() {
         faults.of_answer(FaultCode::LockUnconfirmed, || "time ran out before the lock was proven".into());
     }
@@ -28,7 +30,7 @@ pub(super) fn check(
 
 fn both(
     scene: &Scene,
-    names: &ObjectNames<'_>,
+    (names, allowed): (&ObjectNames<'_>, &Allowed<'_>),
     stated: &Deadlock,
     rings: &mut Rings<'_>,
     faults: &mut Faults,
@@ -41,8 +43,8 @@ fn both(
         let detail = || "is in the core but not among the blocked".to_owned();
         faults.of_object(FaultCode::CoreOutsideBlocked, scene.object(*outside).id(), detail);
     }
-    core.check(scene, rings, faults, ticker)?;
-    blocked.check(scene, rings, faults, ticker)
+    core.check(scene, allowed, rings, faults, ticker)?;
+    blocked.check(scene, allowed, rings, faults, ticker)
 }
 
 struct Lock {
@@ -78,28 +80,56 @@ impl Lock {
         self.is_member[object.get()]
     }
 
-    /// The target is a member. While all members stand, it can't be grasped, and no other movable member can be moved.
+    /// What is wanted is a member, or enough of it that the goal can't be reached without it. While all members stand, no
+    /// candidate can be grasped, and no movable member can be moved.
     fn check(
         &self,
         scene: &Scene,
+        allowed: &Allowed<'_>,
         rings: &mut Rings<'_>,
         faults: &mut Faults,
         ticker: &mut Ticker<'_>,
     ) -> Result<(), Interrupted> {
-        if !self.holds(scene.target()) {
-            let id = scene.object(scene.target()).id();
-            faults.of_object(FaultCode::LockWithoutTarget, id, || format!("the target is not in '{}'", self.name));
-        }
-        for member in self.members.iter().filter(|member| !scene.object(**member).fixed()) {
+        self.holds_what_is_wanted(scene, allowed, faults);
+        let goal = scene.goal();
+        let mobile = |member: &&ObjectIndex| goal.is_candidate(**member) || allowed.relocatable(scene, **member);
+        for member in self.members.iter().filter(mobile) {
             let ring = rings.ring(*member, ticker)?;
             ticker.step(1 + ring.len() / 64)?;
             let stands = |object| self.holds(object);
-            let way = if *member == scene.target() { grasp(rings, &ring, stands) } else { way(rings, &ring, stands) };
+            let way = if goal.is_candidate(*member) { grasp(rings, &ring, stands) } else { way(rings, &ring, stands) };
             if let Some(way) = way {
                 let detail = || format!("{way} though all of '{}' stand", self.name);
                 faults.of_object(FaultCode::LockMemberFree, scene.object(*member).id(), detail);
             }
         }
         Ok(())
+    }
+
+    /// Reports a lock that keeps nobody from the goal.
+    fn holds_what_is_wanted(&self, scene: &Scene, allowed: &Allowed<'_>, faults: &mut Faults) {
+        let mut without = |object: ObjectIndex, what: &str| {
+            let detail = || format!("{what} is not in '{}'", self.name);
+            faults.of_object(FaultCode::LockWithoutTarget, scene.object(object).id(), detail);
+        };
+        match scene.goal() {
+            Goal::Target(target) if !self.holds(*target) => without(*target, "the target"),
+            Goal::Target(_) => {}
+            Goal::AnyOf(candidates) => {
+                candidates
+                    .iter()
+                    .filter(|object| !self.holds(**object))
+                    .for_each(|object| without(*object, "a candidate"));
+            }
+            Goal::AllOf(wanted) if !wanted.iter().any(|object| self.holds(*object)) => {
+                let detail = || format!("nothing that is wanted is in '{}'", self.name);
+                faults.of_answer(FaultCode::LockWithoutTarget, detail);
+            }
+            Goal::Clear if !self.members.iter().any(|member| allowed.relocatable(scene, *member)) => {
+                let detail = || format!("nothing that could be taken away is in '{}'", self.name);
+                faults.of_answer(FaultCode::LockWithoutTarget, detail);
+            }
+            Goal::AllOf(_) | Goal::Clear => {}
+        }
     }
 }

@@ -2,13 +2,16 @@
 //!
 //! It shares only the scene, the budget and the statement, with what a step costs, with the rooms that make answers. So it
 //! does not repeat a fault of geometry, knowledge, search or placement. Reading order: `replay` carries out the steps
-//! (`place`, `measure`, `finger`); `yaws` and `rings` determine which objects block which, `ways` what can be moved then;
-//! `lock`, `chain` and `needed` build on them; `hitting` and `bound` confirm the bound; `parts` compares the parts of the
-//! statement.
+//! (`place`, `measure`, `finger`, `drops`); `allowed` says which objects may move at all, `yaws` and `rings` which objects block
+//! which, `ways` what can be moved then; `lock`, `chain` and `needed` build on them; `hitting` and `bound` confirm the bound;
+//! `clearing` and `most` confirm what a clearing leaves; `parts` compares the parts of the statement.
 
+mod allowed;
 mod bound;
 mod branch;
 mod chain;
+mod clearing;
+mod drops;
 mod family;
 mod fault;
 mod finger;
@@ -16,6 +19,7 @@ mod fork;
 mod hitting;
 mod lock;
 mod measure;
+mod most;
 mod multipliers;
 mod names;
 mod near;
@@ -37,7 +41,9 @@ use crate::budget::{Budget, Ticker};
 use crate::scene::Scene;
 use crate::statement::Statement;
 
+use allowed::Allowed;
 use chain::Chain;
+use clearing::Clearing;
 use fault::Faults;
 use names::ObjectNames;
 use near::{Places, Tree};
@@ -56,10 +62,11 @@ const BEAT: usize = if cfg!(test) { 1 } else { 100 };
 /// still be replayed before it is served. Only plans from outside are longer.
 const PATIENCE: usize = 50_000;
 
-/// The checker of one scene. Its preparations are shared by all answers, whatever their targets.
+/// The checker of one scene. Its preparations are shared by all answers, whatever their goals.
 pub struct Checker<'s> {
     scene: &'s Scene,
     names: ObjectNames<'s>,
+    allowed: Allowed<'s>,
     start: Rc<Tree>,
     /// Chains on rings that lean to blocked.
     blocked: Chain<'s>,
@@ -72,7 +79,7 @@ impl<'s> Checker<'s> {
     pub fn new(scene: &'s Scene) -> Self {
         let start = Tree::of_start(scene);
         let blocked = Chain::new(Rings::new(scene, &start, Leaning::Blocked));
-        Self { scene, names: ObjectNames::new(scene), start, blocked, free: None }
+        Self { scene, names: ObjectNames::new(scene), allowed: Allowed::new(scene), start, blocked, free: None }
     }
 
     /// Check a stated answer. The time is near-linear in the steps and in what the proofs name. Locks and needed objects take
@@ -82,7 +89,7 @@ impl<'s> Checker<'s> {
         self.check_for(self.scene, statement, &Terms::default(), budget)
     }
 
-    /// The same on other terms, and for an answer to `scene`, which is the checker's scene with any target.
+    /// The same on other terms, and for an answer to `scene`, which is the checker's scene with any goal.
     pub(crate) fn check_for(
         &mut self,
         scene: &Scene,
@@ -92,24 +99,30 @@ impl<'s> Checker<'s> {
     ) -> Report {
         let mut faults = Faults::default();
         if !terms.partial {
-            parts::agree(statement, &mut faults);
+            parts::agree(scene, statement, &mut faults);
         }
-        let Replayed { first_failing_step, interrupted } = self.replayed(scene, statement, terms, &mut faults, budget);
+        let replayed = self.replayed(scene, statement, terms, &mut faults, budget);
+        let Replayed { first_failing_step, steps, interrupted, .. } = replayed;
+        let report = Report { first_failing_step, replayed: steps, interrupted, ..Report::default() };
         if terms.partial {
-            return Report { faults: faults.into_vec(), first_failing_step, interrupted, ..Report::default() };
+            return Report { faults: faults.into_vec(), ..report };
         }
-        let Self { names, start, blocked, free, .. } = self;
+        let Self { names, allowed, start, blocked, free, .. } = self;
         let mut ticker = Ticker::every(BEAT, budget);
-        let locked = lock::check(scene, names, statement, blocked.rings(), &mut faults, &mut ticker);
+        let before = faults.count();
+        let locked = lock::check(scene, (names, allowed), statement, blocked.rings(), &mut faults, &mut ticker);
+        let clearing =
+            Clearing { scene, names, allowed, statement, replayed: &replayed, locked: faults.count() == before };
+        let clearing_proven = clearing.check(blocked.rings(), &mut faults, &mut ticker);
         let needed = match &statement.needed {
             Some(ids) => {
                 let rings = free.get_or_insert_with(|| Rings::new(self.scene, start, Leaning::Free));
-                needed::check(scene, names, ids, rings, &mut faults, &mut ticker)
+                needed::check(scene, (names, allowed), ids, rings, &mut faults, &mut ticker)
             }
             None => Ok(()),
         };
         let stated = statement.landmarks.as_deref().unwrap_or_default();
-        let proof = bound::prove(scene, stated, names, blocked, &mut faults, &mut ticker);
+        let proof = bound::prove(scene, stated, (names, allowed), blocked, &mut faults, &mut ticker);
         parts::bounded(statement, &proof, &mut faults);
 
         let unfinished = interrupted || locked.is_err() || needed.is_err() || !proof.complete;
@@ -117,8 +130,9 @@ impl<'s> Checker<'s> {
             faults: faults.into_vec(),
             proven_bound: proof.bound,
             sound_landmarks: proof.sound,
-            first_failing_step,
+            clearing_proven,
             interrupted: unfinished,
+            ..report
         }
     }
 
@@ -130,9 +144,9 @@ impl<'s> Checker<'s> {
         faults: &mut Faults,
         budget: &Budget<'_>,
     ) -> Replayed {
-        let places = Places::new(scene, &self.start, statement.steps(), &self.names);
+        let places = Places::new(scene, &self.start, statement.steps(), &self.names, &self.allowed);
         let ticker = Ticker::patient(PATIENCE, BEAT, budget);
-        replay::replay(scene, &places, &self.names, statement, terms, faults, ticker)
+        replay::replay(scene, &places, (&self.names, &self.allowed), statement, terms, faults, ticker)
     }
 }
 

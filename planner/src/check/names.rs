@@ -27,8 +27,3 @@ impl<'s> ObjectNames<'s> {
         found
     }
 }
-
-/// True for an object that a pick-and-place plan may move: neither fixed nor the target.
-pub(super) fn relocatable(scene: &Scene, object: ObjectIndex) -> bool {
-    object != scene.target() && !scene.object(object).fixed()
-}

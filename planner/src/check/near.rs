@@ -12,12 +12,16 @@ use smallvec::SmallVec;
 use crate::scene::{COORDINATE_RANGE, Footprint, ObjectIndex, Scene};
 use crate::statement::Step;
 
+use super::allowed::Allowed;
 use super::measure::{away, extent, gap};
-use super::names::{ObjectNames, relocatable};
+use super::names::ObjectNames;
 
 /// The number of a place. At the start, the n-th object stands on place n.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PlaceIndex(usize);
+
+/// The place of what was taken away: no place on the table.
+const GONE: PlaceIndex = PlaceIndex(usize::MAX);
 
 /// Every place of the start and of the stated steps.
 pub(super) struct Places {
@@ -37,8 +41,19 @@ pub(super) struct Standing {
 }
 
 impl Standing {
+    /// The place of an object that is not [gone](Self::gone).
     pub(super) fn place(&self, object: ObjectIndex) -> PlaceIndex {
         self.moved.get(&object).copied().unwrap_or(PlaceIndex(object.get()))
+    }
+
+    /// True if the object was taken away.
+    pub(super) fn gone(&self, object: ObjectIndex) -> bool {
+        self.moved.get(&object) == Some(&GONE)
+    }
+
+    /// The object leaves the table.
+    pub(super) fn take_away(&mut self, object: ObjectIndex) {
+        self.moved.insert(object, GONE);
     }
 
     pub(super) fn put(&mut self, object: ObjectIndex, place: PlaceIndex) {
@@ -74,11 +89,18 @@ pub(super) fn resolvable(point: Point2<f64>) -> bool {
 
 impl Places {
     /// `start` holds the scene's objects.
-    pub(super) fn new(scene: &Scene, start: &Rc<Tree>, steps: &[Step], names: &ObjectNames<'_>) -> Self {
+    pub(super) fn new(
+        scene: &Scene,
+        start: &Rc<Tree>,
+        steps: &[Step],
+        names: &ObjectNames<'_>,
+        allowed: &Allowed<'_>,
+    ) -> Self {
         let (mut footprints, mut owners) = (Vec::new(), Vec::new());
         let of_steps = steps.iter().map(|step| {
             let (object, to) = (names.find(step.object())?, step.rests_at()?);
-            (relocatable(scene, object) && resolvable(to.at)).then(|| {
+            let liftable = allowed.graspable(object) && !scene.goal().is_candidate(object);
+            (liftable && resolvable(to.at)).then(|| {
                 footprints.push(scene.object(object).footprint().moved_to(to));
                 owners.push(object);
                 PlaceIndex(start.footprints.len() + footprints.len() - 1)

@@ -1,32 +1,34 @@
-//! Checks a stated derivation: its objects can be moved in this order, and free the target. Places are ignored.
+//! Checks a stated derivation: its objects can be moved in this order, and the goal is reached. Places are ignored.
 
 use std::rc::Rc;
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{Goal, ObjectIndex, Scene};
 
+use super::allowed::Allowed;
 use super::fault::{FaultCode, Faults};
-use super::names::{ObjectNames, relocatable};
+use super::names::ObjectNames;
 use super::rings::{Ring, Rings};
 use super::ways::{grasp, way};
 
 struct Moving<'a, 's> {
     scene: &'a Scene,
     names: &'a ObjectNames<'s>,
+    allowed: &'a Allowed<'s>,
     rings: &'a mut Rings<'s>,
     moved: Vec<bool>,
 }
 
-/// Lifts the needed objects, then tries the target. The rings lean to free.
+/// Lifts the needed objects, then tries the goal. The rings lean to free.
 pub(super) fn check<'s>(
     scene: &Scene,
-    names: &ObjectNames<'s>,
+    (names, allowed): (&ObjectNames<'s>, &Allowed<'s>),
     ids: &[String],
     rings: &mut Rings<'s>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Result<(), Interrupted> {
-    let mut moving = Moving { scene, names, rings, moved: vec![false; scene.objects().len()] };
+    let mut moving = Moving { scene, names, allowed, rings, moved: vec![false; scene.objects().len()] };
     let checked = moving.all(ids, faults, ticker);
     if checked.is_err() {
         faults.of_answer(FaultCode::NeededUnconfirmed, || "time ran out before all needed objects were lifted".into());
@@ -40,20 +42,17 @@ impl Moving<'_, '_> {
             ticker.step(1)?;
             let Some(object) = self.names.known(id, None, faults) else { continue };
             let mut wrong = |why: &str| faults.of_object(FaultCode::WrongNeeded, id, || why.to_owned());
-            if !relocatable(self.scene, object) {
+            let movable = self.allowed.relocatable(self.scene, object);
+            if !movable {
                 wrong("can't be relocated");
             } else if self.moved[object.get()] {
                 wrong("is named twice");
             } else if !self.can_be_moved(object, ticker)? {
                 wrong("can't be moved when its turn comes");
             }
-            self.moved[object.get()] = relocatable(self.scene, object);
+            self.moved[object.get()] = movable;
         }
-        if !self.target_is_free(ticker)? {
-            let id = self.scene.object(self.scene.target()).id();
-            faults.of_object(FaultCode::WrongNeeded, id, || "has no free yaw after all needed objects".to_owned());
-        }
-        Ok(())
+        self.goal(faults, ticker)
     }
 
     fn can_be_moved(&mut self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
@@ -61,9 +60,26 @@ impl Moving<'_, '_> {
         Ok(way(self.rings, &ring, |other| !self.moved[other.get()]).is_some())
     }
 
-    fn target_is_free(&mut self, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
-        let ring = self.ring(self.scene.target(), ticker)?;
-        Ok(grasp(self.rings, &ring, |other| !self.moved[other.get()]).is_some())
+    /// A candidate can be grasped, and all that is to be taken away was moved.
+    fn goal(&mut self, faults: &mut Faults, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
+        let (scene, goal) = (self.scene, self.scene.goal());
+        for &object in goal.wanted_away().iter().filter(|object| !self.moved[object.get()]) {
+            let detail = || "is wanted and not among the needed objects".to_owned();
+            faults.of_object(FaultCode::WrongNeeded, scene.object(object).id(), detail);
+        }
+        for &candidate in goal.candidates() {
+            let ring = self.ring(candidate, ticker)?;
+            if grasp(self.rings, &ring, |other| !self.moved[other.get()]).is_some() {
+                return Ok(());
+            }
+        }
+        let blocked = || "has no free yaw after all needed objects".to_owned();
+        match goal {
+            Goal::Target(target) => faults.of_object(FaultCode::WrongNeeded, scene.object(*target).id(), blocked),
+            Goal::AnyOf(_) => faults.of_answer(FaultCode::WrongNeeded, || format!("no candidate {}", blocked())),
+            Goal::AllOf(_) | Goal::Clear => {}
+        }
+        Ok(())
     }
 
     fn ring(&mut self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<Rc<Ring>, Interrupted> {

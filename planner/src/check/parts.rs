@@ -1,6 +1,7 @@
 //! Checks that the parts of a statement agree with each other and with the proof.
 
 use crate::cost::Cost;
+use crate::scene::{Goal, Scene};
 use crate::statement::{Statement, Step, Verdict};
 
 use super::bound::Proof;
@@ -18,8 +19,10 @@ fn cost(statement: &Statement) -> Option<Cost> {
     statement.relocations.as_deref().map(cost_of).or(statement.cost)
 }
 
-/// The parts that belong to the verdict are there, and no others.
-pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
+/// The verdict goes with the goal, and the parts that belong to both are there and no others.
+pub(super) fn agree(scene: &Scene, statement: &Statement, faults: &mut Faults) {
+    verdict(scene, statement, faults);
+    of_goal(scene, statement, faults);
     let moves = !statement.steps().is_empty();
     let cost = ("cost", statement.cost.is_some());
     let plan = [("relocations", moves), ("target_grasp", statement.target_grasp.is_some()), cost];
@@ -34,6 +37,7 @@ pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
     match statement.verdict {
         Some(Verdict::Graspable) => unexpected(&[("relocations", moves), deadlock, needed]),
         Some(Verdict::Relocate) => unexpected(&[deadlock, needed]),
+        Some(Verdict::Cleared | Verdict::PartlyCleared) => {}
         Some(Verdict::NoSpace | Verdict::TimedOut) => {
             unexpected(&plan);
             unexpected(&[deadlock]);
@@ -51,6 +55,40 @@ pub(super) fn agree(statement: &Statement, faults: &mut Faults) {
     costs(statement, faults);
 }
 
+/// A clearing has verdicts of its own, and where objects are taken away none is graspable as the table stands.
+fn verdict(scene: &Scene, statement: &Statement, faults: &mut Faults) {
+    let Some(verdict) = statement.verdict else { return };
+    let clears = matches!(verdict, Verdict::Cleared | Verdict::PartlyCleared);
+    let fits = match scene.goal() {
+        Goal::Target(_) | Goal::AnyOf(_) => !clears,
+        Goal::AllOf(_) => !clears && verdict != Verdict::Graspable,
+        Goal::Clear => clears,
+    };
+    if !fits {
+        faults.of_answer(FaultCode::WrongVerdict, || format!("'{}' does not go with this goal", verdict.as_str()));
+    }
+}
+
+/// The parts that are there go with the goal.
+fn of_goal(scene: &Scene, statement: &Statement, faults: &mut Faults) {
+    let clears = *scene.goal() == Goal::Clear;
+    let grasps = !scene.goal().candidates().is_empty();
+    let parts = [
+        ("target_grasp", statement.target_grasp.is_some() && !grasps),
+        ("lower_bound", statement.lower_bound.is_some() && clears),
+        ("optimal", statement.optimal.is_some() && clears),
+        ("landmarks", statement.landmarks.is_some() && clears),
+        ("deadlock", statement.deadlock.is_some() && clears),
+        ("needed", statement.needed.is_some() && clears),
+        ("stuck", statement.stuck.is_some() && !clears),
+        ("left", statement.left.is_some() && !clears),
+        ("proven", statement.proven.is_some() && !clears),
+    ];
+    for (name, _) in parts.iter().filter(|(_, unexpected)| *unexpected) {
+        faults.of_answer(FaultCode::UnexpectedPart, || format!("'{name}' does not go with this goal"));
+    }
+}
+
 /// The stated cost is that of the steps.
 fn costs(statement: &Statement, faults: &mut Faults) {
     let stated_steps = statement.relocations.as_deref();
@@ -64,7 +102,7 @@ fn costs(statement: &Statement, faults: &mut Faults) {
             faults.of_answer(FaultCode::WrongCost, || "a plan without relocations is called graspable".into());
             Some(Cost::ZERO)
         }
-        Some(Verdict::Relocate) | None => stated_steps.map(cost_of),
+        Some(Verdict::Relocate | Verdict::Cleared | Verdict::PartlyCleared) | None => stated_steps.map(cost_of),
         Some(_) => None,
     };
     if let (Some(stated), Some(real)) = (statement.cost, real)

@@ -5,10 +5,12 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
-use crate::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
+use crate::scene::{Footprint, Goal, ObjectIndex, Pose, Scene};
+use crate::statement::{PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 use super::TOLERANCE;
+use super::allowed::{Allowed, may_drop, only_drops};
+use super::drops::Drops;
 use super::fault::{FaultCode, Faults, figure};
 use super::finger::Finger;
 use super::measure::apart;
@@ -24,7 +26,9 @@ struct Replay<'a> {
     scene: &'a Scene,
     places: &'a Places,
     names: &'a ObjectNames<'a>,
+    allowed: &'a Allowed<'a>,
     standing: Standing,
+    drops: Drops,
     terms: &'a Terms,
     faults: &'a mut Faults,
     first_failing_step: Option<usize>,
@@ -33,34 +37,44 @@ struct Replay<'a> {
 
 /// How far a replay came.
 pub(super) struct Replayed {
-    /// The first step with a fault; the number of steps if it is the final grasp.
+    /// The first step with a fault; the number of steps if it is the final grasp, or what should have gone.
     pub(super) first_failing_step: Option<usize>,
+    /// The number of steps that were replayed.
+    pub(super) steps: usize,
     /// True if time ran out before the end.
     pub(super) interrupted: bool,
+    /// What the steps leave on the table.
+    pub(super) standing: Standing,
+    /// What they took to the drop-offs.
+    pub(super) drops: Drops,
 }
 
-/// Replay the stated steps, then grasp the target. A step that can't be carried out (unknown object, no such place) is
+/// Replay the stated steps, then reach the goal. A step that can't be carried out (unknown object, no such place) is
 /// a fault and is skipped. Any other faulty step is carried out, so that one fault does not cause more.
 pub(super) fn replay<'a>(
     scene: &'a Scene,
     places: &'a Places,
-    names: &'a ObjectNames<'a>,
+    (names, allowed): (&'a ObjectNames<'a>, &'a Allowed<'a>),
     statement: &Statement,
     terms: &'a Terms,
     faults: &'a mut Faults,
     ticker: Ticker<'a>,
 ) -> Replayed {
-    let standing = Standing::default();
-    let mut replay = Replay { scene, places, names, standing, terms, faults, first_failing_step: None, ticker };
-    let interrupted = replay.run(statement).is_err();
+    let (standing, drops) = (Standing::default(), Drops::new(scene));
+    let first_failing_step = None;
+    let mut replay =
+        Replay { scene, places, names, allowed, standing, drops, terms, faults, first_failing_step, ticker };
+    let mut steps = 0;
+    let interrupted = replay.run(statement, &mut steps).is_err();
     if interrupted {
         replay.faults.of_answer(FaultCode::ReplayUnconfirmed, || "time ran out before all steps were replayed".into());
     }
-    Replayed { first_failing_step: replay.first_failing_step, interrupted }
+    let Replay { first_failing_step, standing, drops, .. } = replay;
+    Replayed { first_failing_step, steps, interrupted, standing, drops }
 }
 
-/// True for an answer with a final grasp of the target.
-pub(super) fn ends_in_grasp(statement: &Statement) -> bool {
+/// True for an answer that says that its steps reach the goal, a clearing apart.
+fn reaches_goal(statement: &Statement) -> bool {
     match statement.verdict {
         Some(Verdict::Graspable | Verdict::Relocate) => true,
         Some(_) => false,
@@ -69,13 +83,15 @@ pub(super) fn ends_in_grasp(statement: &Statement) -> bool {
 }
 
 impl Replay<'_> {
-    fn run(&mut self, statement: &Statement) -> Result<(), Interrupted> {
+    fn run(&mut self, statement: &Statement, done: &mut usize) -> Result<(), Interrupted> {
         for (at, step) in statement.steps().iter().enumerate() {
             self.noting(at, |replay| match step {
                 Step::PickPlace(step) => replay.pick_place(at, step),
+                Step::PickDrop(step) => replay.pick_drop(at, step),
             })?;
+            *done = at + 1;
         }
-        self.noting(statement.steps().len(), |replay| replay.target_grasp(statement))
+        self.noting(statement.steps().len(), |replay| replay.goal(statement))
     }
 
     /// Replays the step at this position. Notes it if it is the first with a fault.
@@ -92,13 +108,43 @@ impl Replay<'_> {
         replayed
     }
 
-    fn target_grasp(&mut self, statement: &Statement) -> Result<(), Interrupted> {
-        if let Some(grasp) = statement.target_grasp {
-            let target = self.scene.target();
-            return self.grasp(FaultCode::TargetBlocked, None, target, self.footprint(target), grasp);
+    /// What is wanted after the steps: the final grasp, or that objects are gone.
+    fn goal(&mut self, statement: &Statement) -> Result<(), Interrupted> {
+        let ends = !self.terms.partial && reaches_goal(statement);
+        match self.scene.goal() {
+            Goal::Target(target) => self.target_grasp(Some(*target), statement, ends),
+            Goal::AnyOf(_) => {
+                let chosen = statement.target.as_deref().and_then(|id| self.names.known(id, None, self.faults));
+                self.target_grasp(chosen, statement, ends)
+            }
+            Goal::AllOf(wanted) => {
+                for &object in wanted.iter().filter(|object| ends && !self.standing.gone(**object)) {
+                    let detail = || "is to be taken away and still stands on the table".to_owned();
+                    self.faults.of_object(FaultCode::WantedLeft, self.scene.object(object).id(), detail);
+                }
+                Ok(())
+            }
+            Goal::Clear => Ok(()),
         }
-        if !self.terms.partial && ends_in_grasp(statement) {
-            self.faults.of_answer(FaultCode::MissingPart, || "a plan needs its target_grasp".into());
+    }
+
+    fn target_grasp(
+        &mut self,
+        target: Option<ObjectIndex>,
+        statement: &Statement,
+        ends: bool,
+    ) -> Result<(), Interrupted> {
+        match (target, statement.target_grasp) {
+            (Some(target), Some(grasp)) => {
+                self.grasp(FaultCode::TargetBlocked, None, target, self.footprint(target), grasp)?;
+            }
+            (None, Some(_)) if statement.target.is_none() => {
+                self.faults.of_answer(FaultCode::MissingPart, || "a target_grasp needs its target".into());
+            }
+            (_, None) if ends => {
+                self.faults.of_answer(FaultCode::MissingPart, || "a plan needs its target_grasp".into());
+            }
+            _ => {}
         }
         Ok(())
     }
@@ -106,10 +152,20 @@ impl Replay<'_> {
     fn pick_place(&mut self, at: usize, step: &PickPlace) -> Result<(), Interrupted> {
         self.ticker.step(1)?;
         let Some(object) = self.names.known(&step.object, Some(at), self.faults) else { return Ok(()) };
+        let liftable = self.liftable(at, object);
         let Some(to) = self.places.of_step(at) else {
-            self.refuse(at, object, step.to.at);
+            if !resolvable(step.to.at) {
+                let detail = || "the new place is no place on a table".to_owned();
+                self.faults.of_step(FaultCode::NumberOutOfRange, at, &step.object, detail);
+            }
             return Ok(());
         };
+        if !liftable {
+            return Ok(());
+        }
+        if only_drops(self.scene) {
+            self.misplaced(at, object, "is put aside on the table, and may only be taken away");
+        }
         if let Some(from) = step.from {
             self.stands_as_stated(at, object, from);
         }
@@ -124,18 +180,44 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Reports why a step has no place.
-    fn refuse(&mut self, at: usize, object: ObjectIndex, to: Point2<f64>) {
+    fn pick_drop(&mut self, at: usize, step: &PickDrop) -> Result<(), Interrupted> {
+        self.ticker.step(1)?;
+        let Some(object) = self.names.known(&step.object, Some(at), self.faults) else { return Ok(()) };
+        if !self.liftable(at, object) {
+            return Ok(());
+        }
+        if !may_drop(self.scene, object) {
+            self.misplaced(at, object, "is taken away, and may only be put aside on the table");
+        }
+        if let Some(from) = step.from {
+            self.stands_as_stated(at, object, from);
+        }
+        self.grasp(FaultCode::GraspBlocked, Some(at), object, self.footprint(object), step.grasp)?;
+        self.drops.take(self.scene, self.allowed, at, object, &step.drop_off, self.faults);
+        self.standing.take_away(object);
+        Ok(())
+    }
+
+    fn misplaced(&mut self, at: usize, object: ObjectIndex, why: &str) {
+        self.faults.of_step(FaultCode::WrongDestination, at, self.scene.object(object).id(), || why.to_owned());
+    }
+
+    /// True if the object can be lifted off the table at all; reports why it can't.
+    fn liftable(&mut self, at: usize, object: ObjectIndex) -> bool {
         let stated = self.scene.object(object);
-        let mut refuse = |code, why: &str| self.faults.of_step(code, at, stated.id(), || why.to_owned());
-        if object == self.scene.target() {
-            refuse(FaultCode::TargetMoved, "the target is not relocated");
+        let (code, why) = if self.scene.goal().is_candidate(object) {
+            (FaultCode::TargetMoved, "the target is not relocated")
         } else if stated.fixed() {
-            refuse(FaultCode::FixedObjectMoved, "a fixed object can't be moved");
-        }
-        if !resolvable(to) {
-            refuse(FaultCode::NumberOutOfRange, "the new place is no place on a table");
-        }
+            (FaultCode::FixedObjectMoved, "a fixed object can't be moved")
+        } else if !self.allowed.graspable(object) {
+            (FaultCode::TooWide, "is wider than the greatest opening")
+        } else if self.standing.gone(object) {
+            (FaultCode::AlreadyGone, "was taken away before")
+        } else {
+            return true;
+        };
+        self.faults.of_step(code, at, stated.id(), || why.to_owned());
+        false
     }
 
     fn footprint(&self, object: ObjectIndex) -> Footprint {

@@ -155,13 +155,13 @@ mod tests {
 
     /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
     fn some_band_is_free(scene: &Scene, band: f64) -> bool {
-        let (gripper, target) = (scene.gripper(), scene.object(scene.target()).footprint());
+        let (gripper, target) = (scene.gripper(), scene.object(scene.target().unwrap()).footprint());
         let finger = Finger::new(gripper, &target);
         (0..500).any(|sample| {
             let yaw = gripper.period() * f64::from(sample) / 500.0;
             scene
                 .indices()
-                .filter(|object| *object != scene.target())
+                .filter(|object| Some(*object) != scene.target())
                 .all(|object| finger.depth(gripper, &target, &scene.object(object).footprint(), (yaw, band)) <= 0.0)
         })
     }
@@ -178,7 +178,7 @@ mod tests {
             let x = 0.5 + (finger.corner_distance() + 0.08) * (1.0 + off);
             let scene = TestScene::new(3).disc("t", 0.5, 0.5, 0.05).disc("o", x, 0.5, 0.08).build("t");
             let mut rings = Rings::new(&scene, &Tree::of_start(&scene), leaning);
-            let ring = rings.ring(scene.target(), &mut Ticker::new(&Budget::unlimited())).unwrap();
+            let ring = rings.ring(scene.target().unwrap(), &mut Ticker::new(&Budget::unlimited())).unwrap();
             assert_eq!(ring.len() > 0, blocks, "{off:e} {leaning:?}");
         }
     }
@@ -195,7 +195,7 @@ mod tests {
             let start = Tree::of_start(&scene);
             for leaning in [Leaning::Blocked, Leaning::Free] {
                 let mut rings = Rings::new(&scene, &start, leaning);
-                let ring = rings.ring(scene.target(), &mut Ticker::new(&Budget::unlimited())).unwrap();
+                let ring = rings.ring(scene.target().unwrap(), &mut Ticker::new(&Budget::unlimited())).unwrap();
                 // The middle of a free interval is at most half a sample off.
                 let half_sample = scene.gripper().period() / 1000.0 + 1e-9;
                 if rings.free_yaw(&ring, |_| true).is_some() {

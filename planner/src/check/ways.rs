@@ -17,7 +17,16 @@ pub(super) enum Way {
     },
 }
 
-/// The way in which the target, whose ring this is, can be grasped in the end.
+impl Way {
+    /// How the way frees what is grasped in the end.
+    pub(super) fn frees(self, what: &str) -> String {
+        match self {
+            Self::Picked { yaw } => format!("{what} is free at yaw {yaw:.9} rad"),
+        }
+    }
+}
+
+/// The way in which a candidate of the goal, whose ring this is, can be grasped in the end.
 pub(super) fn grasp(rings: &Rings<'_>, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<Way> {
     rings.free_yaw(ring, stands).map(|yaw| Way::Picked { yaw })
 }

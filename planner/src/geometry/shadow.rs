@@ -10,8 +10,11 @@ use crate::scene::{Footprint, Gripper, Shape, distance};
 pub fn shadow(gripper: &Gripper, grasped: &Footprint, obstacle: &Footprint, extra: f64) -> ArcSet {
     let period = gripper.period();
     let (Shape::Disc { radius }, Shape::Disc { radius: others }) = (grasped.shape, obstacle.shape);
-    let finger =
-        SweptRectangle { inner: radius, outer: radius + gripper.clearance(), half_width: gripper.finger_width() / 2.0 };
+    let finger = SweptRectangle {
+        inner: radius,
+        outer: gripper.outer_distance(grasped),
+        half_width: gripper.finger_width() / 2.0,
+    };
     let apart = distance(grasped.at(), obstacle.at());
     match finger.blocked_offsets(apart, others + gripper.margin() + extra) {
         BlockedOffsets::Clear => ArcSet::empty(period),
@@ -37,7 +40,7 @@ mod tests {
 
     use super::*;
     use crate::scene::{
-        GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft,
+        GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft,
     };
 
     fn gripper(fingers: u32, finger_width: f64, clearance: f64, margin: f64) -> Gripper {
@@ -56,9 +59,11 @@ mod tests {
             clearance: Some(clearance),
             margin: Some(margin),
             yaw_tolerance: Some(0.0),
+            ..GripperDraft::default()
         };
         let table = TableDraft { top, keep_out: vec![] };
-        let draft = SceneDraft { table, gripper, objects: vec![only], target: Some("a".into()) };
+        let goal = Some(GoalDraft::Target("a".into()));
+        let draft = SceneDraft { table, gripper, objects: vec![only], goal, ..SceneDraft::default() };
         *Scene::new(draft, &SceneLimits::default()).expect("a sound scene").0.gripper()
     }
 

@@ -1,5 +1,7 @@
 //! The knowledge base: per object its options, the bodies of its Horn rules.
 
+use std::collections::HashMap;
+
 use super::rows::Rows;
 use crate::scene::ObjectIndex;
 
@@ -116,9 +118,34 @@ fn subset_minimal(mut options: Vec<Vec<ObjectIndex>>) -> Vec<Vec<ObjectIndex>> {
         option.dedup();
     }
     options.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
+    if options.len() > FEW {
+        return subset_minimal_of_many(options);
+    }
     let mut kept: Vec<Vec<ObjectIndex>> = Vec::with_capacity(options.len());
     for option in options {
         if !kept.iter().any(|smaller| is_subset(smaller, &option)) {
+            kept.push(option);
+        }
+    }
+    kept
+}
+
+/// So many options are compared each with each.
+const FEW: usize = 64;
+
+/// The same for the many options of a goal, shorter ones first: a subset is looked for only among those that begin with one of
+/// the members.
+fn subset_minimal_of_many(options: Vec<Vec<ObjectIndex>>) -> Vec<Vec<ObjectIndex>> {
+    let (mut kept, mut by_first): (Vec<Vec<ObjectIndex>>, HashMap<ObjectIndex, Vec<usize>>) = Default::default();
+    for option in options {
+        if kept.first().is_some_and(Vec::is_empty) {
+            return kept;
+        }
+        let rivals = || option.iter().filter_map(|member| by_first.get(member)).flatten();
+        if !rivals().any(|&at| is_subset(&kept[at], &option)) {
+            if let Some(&first) = option.first() {
+                by_first.entry(first).or_default().push(kept.len());
+            }
             kept.push(option);
         }
     }
@@ -137,6 +164,30 @@ mod tests {
 
     fn set(members: &[usize]) -> Vec<ObjectIndex> {
         members.iter().copied().map(ObjectIndex::new).collect()
+    }
+
+    #[test]
+    fn many_options_are_judged_like_few() {
+        // 300 options of 1 to 3 of 12 objects; none is empty.
+        let options = |n: usize| -> Vec<ObjectIndex> {
+            set(&[n * 7 % 12, n * n % 11, if n.is_multiple_of(3) { n % 12 } else { n * 5 % 12 }])
+        };
+        let all: Vec<Vec<ObjectIndex>> = (0..300).map(options).collect();
+        let few = subset_minimal(all.iter().take(FEW).cloned().collect());
+        let naive = |mut options: Vec<Vec<ObjectIndex>>| {
+            options.iter_mut().for_each(|option| {
+                option.sort_unstable();
+                option.dedup();
+            });
+            options.sort_unstable_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
+            options.dedup();
+            let smaller = |a: &Vec<ObjectIndex>, b: &Vec<ObjectIndex>| a != b && a.iter().all(|o| b.contains(o));
+            options.iter().filter(|b| !options.iter().any(|a| smaller(a, b))).cloned().collect::<Vec<_>>()
+        };
+        assert_eq!(few, naive(all.iter().take(FEW).cloned().collect()));
+        assert_eq!(subset_minimal(all.clone()), naive(all.clone()));
+        let with_empty: Vec<_> = all.into_iter().chain([Vec::new()]).collect();
+        assert_eq!(subset_minimal(with_empty), [Vec::new()]);
     }
 
     #[test]

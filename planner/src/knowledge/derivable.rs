@@ -15,7 +15,7 @@ pub struct Derivable {
     pub derived: Vec<bool>,
 }
 
-/// Chains forward: relocates every graspable object that is not `held`. A held object can be derived too, but stays
+/// Chains forward: moves every graspable object that is not `held`. A held object can be derived too, but stays
 /// where it is, so nothing follows from it.
 ///
 /// # Errors
@@ -25,36 +25,64 @@ pub fn derivable(
     held: impl Fn(ObjectIndex) -> bool,
     budget: &Budget<'_>,
 ) -> Result<Derivable, Interrupted> {
-    let condition_of = condition_of(base);
-    budget.check()?;
-    let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
-    let mut derivable = Derivable { order: Vec::new(), derived: vec![false; base.len()] };
-    for object in base.objects() {
-        for rule in base.rules_of(object) {
-            missing.push(u32::try_from(base.body(rule).len()).unwrap_or(u32::MAX));
-        }
-        if base.free_now(object) {
-            derivable.derive(object);
-        }
-    }
-    budget.check()?;
+    let mut chaining = Chaining::new(base, budget)?;
     let mut at = 0;
-    while let Some(&object) = derivable.order.get(at) {
+    while let Some(&object) = chaining.known.order.get(at) {
         at += 1;
         if at % 64 == 0 {
             budget.check()?;
         }
-        if held(object) {
-            continue;
+        if !held(object) {
+            chaining.move_away(object);
         }
-        for &(rule, head) in condition_of.get(object.get()) {
-            missing[rule as usize] -= 1;
-            if missing[rule as usize] == 0 {
-                derivable.derive(head);
+    }
+    Ok(chaining.known)
+}
+
+/// Forward chaining in an order of the caller's choice.
+pub struct Chaining {
+    condition_of: Rows<(u32, ObjectIndex)>,
+    /// Per rule the members of its body that still stand.
+    missing: Vec<u32>,
+    known: Derivable,
+}
+
+impl Chaining {
+    /// Nothing is moved yet.
+    ///
+    /// # Errors
+    /// [`Interrupted`] when the budget ends.
+    pub fn new(base: &KnowledgeBase, budget: &Budget<'_>) -> Result<Self, Interrupted> {
+        let condition_of = condition_of(base);
+        budget.check()?;
+        let mut missing: Vec<u32> = Vec::with_capacity(base.rules());
+        let mut known = Derivable { order: Vec::new(), derived: vec![false; base.len()] };
+        for object in base.objects() {
+            for rule in base.rules_of(object) {
+                missing.push(u32::try_from(base.body(rule).len()).unwrap_or(u32::MAX));
+            }
+            if base.free_now(object) {
+                known.derive(object);
+            }
+        }
+        budget.check()?;
+        Ok(Self { condition_of, missing, known })
+    }
+
+    /// Moves an object, at most once, and derives what follows.
+    pub fn move_away(&mut self, object: ObjectIndex) {
+        for &(rule, head) in self.condition_of.get(object.get()) {
+            self.missing[rule as usize] -= 1;
+            if self.missing[rule as usize] == 0 {
+                self.known.derive(head);
             }
         }
     }
-    Ok(derivable)
+
+    /// What is derived so far.
+    pub fn known(&self) -> &Derivable {
+        &self.known
+    }
 }
 
 impl Derivable {

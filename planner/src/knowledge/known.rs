@@ -22,9 +22,9 @@ pub struct KnownOption {
 pub struct ObjectKnowledge {
     /// The object.
     pub object: ObjectIndex,
-    /// Its options, none with a fixed object; empty for a fixed object.
+    /// Its options, none with an object that no plan moves; empty for one that can't be grasped.
     pub options: Vec<KnownOption>,
-    /// The obstacles that block it at some yaw; none for a fixed object.
+    /// The obstacles that block it at some yaw; none for an object that can't be grasped.
     pub shadows: Vec<Blocker>,
 }
 
@@ -33,6 +33,7 @@ pub struct ObjectKnowledge {
 /// # Errors
 /// [`NoBase`] when the budget ends, or if the objects are too dense.
 pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Result<Vec<ObjectKnowledge>, NoBase> {
+    let scene = &scene.without_goal();
     let base = complete(scene, model, budget)?;
     let each = scene.indices().map(|object| {
         budget.check()?;
@@ -42,13 +43,16 @@ pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Resu
 }
 
 fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object: ObjectIndex) -> ObjectKnowledge {
-    if scene.object(object).fixed() {
+    if !scene.object(object).can_be_grasped() {
         return ObjectKnowledge { object, options: Vec::new(), shadows: Vec::new() };
     }
     let shadows = blockers(scene, object, model);
-    let movable = |option: &&[ObjectIndex]| !option.iter().any(|member| scene.object(*member).fixed());
+    let movable = |option: &&[ObjectIndex]| option.iter().all(|&member| scene.movable(member));
+    // What no drop-off accepts has no rules by which it is moved, and yet it can be grasped.
+    let own = (!scene.movable(object)).then(|| KnowledgeBase::from_iter([model.options(scene, object)]));
+    let (base, row) = own.as_ref().map_or((base, object), |own| (own, ObjectIndex::new(0)));
     let options = base
-        .options(object)
+        .options(row)
         .filter(movable)
         .map(|option| KnownOption { members: option.to_vec(), free: free_without(scene, &shadows, option) });
     ObjectKnowledge { object, options: options.collect(), shadows }

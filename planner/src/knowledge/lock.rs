@@ -16,22 +16,22 @@ pub struct Locks {
     /// The greatest lock: the underived objects that have options. (The caller adds those without options, since it
     /// knows why they have none.)
     pub blocked: Vec<ObjectIndex>,
-    /// A lock with the target; inclusion-minimal unless the budget ended first.
+    /// A lock with what is wanted; inclusion-minimal unless the budget ended first.
     pub core: Vec<ObjectIndex>,
 }
 
-/// The locks around `target`, which must not be `derivable` (from the same base). An object without options may be a
-/// member as it is.
+/// The locks around `wanted` objects, none of which may be `derivable` (from the same base). An object without options may be
+/// a member as it is. `wanted` is in index order.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends before there is a lock at all.
 pub fn locks(
     base: &KnowledgeBase,
     derivable: &Derivable,
-    target: ObjectIndex,
+    wanted: &[ObjectIndex],
     budget: &Budget<'_>,
 ) -> Result<Locks, Interrupted> {
-    let mut grown = GrowingLock::grow(base, derivable, target, budget)?;
+    let mut grown = GrowingLock::grow(base, derivable, wanted, budget)?;
     grown.minimise(budget);
     let movable = |object: &ObjectIndex| !base.rules_of(*object).is_empty();
     let blocked = base.objects().filter(|object| !derivable.derives(*object)).filter(movable).collect();
@@ -41,7 +41,8 @@ pub fn locks(
 /// A lock under construction.
 struct GrowingLock<'a> {
     base: &'a KnowledgeBase,
-    target: ObjectIndex,
+    /// The members that stay, in index order.
+    wanted: &'a [ObjectIndex],
     member: Vec<bool>,
     /// The members in the order in which they entered.
     entered: Vec<ObjectIndex>,
@@ -52,24 +53,24 @@ struct GrowingLock<'a> {
 }
 
 impl<'a> GrowingLock<'a> {
-    /// Grows a lock from the target outwards. For each option of a member that holds no member, an underived object of
+    /// Grows a lock from the wanted objects outwards. For each option of a member that holds no member, an underived object of
     /// that option enters.
     fn grow(
         base: &'a KnowledgeBase,
         derivable: &Derivable,
-        target: ObjectIndex,
+        wanted: &'a [ObjectIndex],
         budget: &Budget<'_>,
     ) -> Result<Self, Interrupted> {
         let mut core = Self {
             base,
-            target,
+            wanted,
             member: vec![false; base.len()],
             entered: Vec::new(),
             holders: vec![0; base.rules()],
             condition_of: vec![Vec::new(); base.len()],
         };
-        let mut open = VecDeque::from([target]);
-        core.enter(target);
+        let mut open: VecDeque<ObjectIndex> = wanted.iter().copied().collect();
+        wanted.iter().for_each(|&object| core.enter(object));
         while let Some(object) = open.pop_front() {
             budget.check()?;
             while let Some(holder) = core.best_holder(object, derivable) {
@@ -110,22 +111,22 @@ impl<'a> GrowingLock<'a> {
         runs.max_by_key(rank).map(|run| run[0])
     }
 
-    /// Drops members, the latest first, as long as the target stays locked.
+    /// Drops members, the latest first, as long as all that is wanted stays locked.
     fn minimise(&mut self, budget: &Budget<'_>) {
         for at in (0..self.entered.len()).rev() {
             if budget.check().is_err() {
                 return;
             }
             let object = self.entered[at];
-            if object != self.target && self.member[object.get()] {
-                self.leave_unless_target_falls(object);
+            if self.member[object.get()] && self.wanted.binary_search(&object).is_err() {
+                self.leave_unless_a_wanted_one_falls(object);
             }
         }
     }
 
-    /// Drops a member, and then each member with an option that no longer holds one. If the target would be dropped,
+    /// Drops a member, and then each member with an option that no longer holds one. If a wanted one would be dropped,
     /// all are restored.
-    fn leave_unless_target_falls(&mut self, object: ObjectIndex) {
+    fn leave_unless_a_wanted_one_falls(&mut self, object: ObjectIndex) {
         let mut left = vec![object];
         self.member[object.get()] = false;
         let mut at = 0;
@@ -139,7 +140,7 @@ impl<'a> GrowingLock<'a> {
                 }
             }
         }
-        if self.member[self.target.get()] {
+        if self.wanted.iter().all(|object| self.member[object.get()]) {
             return;
         }
         for object in left {
@@ -176,7 +177,7 @@ mod tests {
         if derivable.derives(target) {
             return None;
         }
-        let lock = locks(base, &derivable, target, &Budget::unlimited()).expect("unlimited");
+        let lock = locks(base, &derivable, &[target], &Budget::unlimited()).expect("unlimited");
         assert!(lock.core.contains(&target) && is_lock(base, &lock.core));
         let with_stuck: Vec<_> = base.objects().filter(|object| !derivable.derives(*object)).collect();
         assert!(is_lock(base, &with_stuck) && lock.blocked.iter().all(|object| with_stuck.contains(object)));

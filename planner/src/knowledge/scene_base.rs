@@ -3,7 +3,7 @@
 use super::base::KnowledgeBase;
 use super::grasp_model::{GraspModel, SweptFinger, those_blocking};
 use crate::budget::{Budget, Interrupted};
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{Goal, ObjectIndex, Scene};
 
 /// The most members that all options of one base may have together. A crowd of 10,000 dishes has some 100,000; a base
 /// of this size takes a few dozen megabytes, and search as much again.
@@ -26,7 +26,7 @@ impl From<Interrupted> for NoBase {
     }
 }
 
-/// The base of every movable object.
+/// The base of every object that may be moved, or grasped in the end.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
@@ -35,7 +35,7 @@ pub fn complete(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> R
     completed(scene, &nothing, model, budget)
 }
 
-/// The base of every movable object, given the part of it that [`relevant`] found.
+/// The same, given the part of it that [`relevant`] or [`of_goal`] found.
 ///
 /// # Errors
 /// [`NoBase`] when the budget ends, or when the objects stand too dense.
@@ -72,12 +72,50 @@ pub fn relevant(
     model: &dyn GraspModel,
     budget: &Budget<'_>,
 ) -> Result<KnowledgeBase, NoBase> {
+    reached_from(scene, vec![target], model, budget)
+}
+
+/// The base of a goal: of the objects on which it depends, and of a node that stands for it. The node is the target itself where
+/// there is one. Otherwise it comes after all objects, as one more head of rules: for one of several candidates with the bodies
+/// of each, none of which holds a candidate, since a candidate that could be moved could be grasped; for several objects that
+/// are all taken away with one body, all of them. Candidates are moved by no rule here.
+///
+/// # Errors
+/// [`NoBase`] when the budget ends, or when the objects stand too dense.
+pub fn of_goal(
+    scene: &Scene,
+    model: &dyn GraspModel,
+    budget: &Budget<'_>,
+) -> Result<(KnowledgeBase, ObjectIndex), NoBase> {
+    let goal = scene.goal();
+    let reached = reached_from(scene, goal.named().to_vec(), model, budget)?;
+    if let Goal::Target(target) = goal {
+        return Ok((reached, *target));
+    }
+    let mut base = KnowledgeBase::new();
+    for object in scene.indices() {
+        base.push_same(&reached, (!goal.is_candidate(object)).then_some(object));
+    }
+    budget.check()?;
+    let without_candidates = |option: &&[ObjectIndex]| !option.iter().any(|&member| goal.is_candidate(member));
+    let bodies = goal.candidates().iter().flat_map(|&candidate| reached.options(candidate).filter(without_candidates));
+    let all = (!goal.wanted_away().is_empty()).then(|| goal.wanted_away().to_vec());
+    base.push(bodies.map(<[_]>::to_vec).chain(all).collect());
+    Ok((base, ObjectIndex::new(scene.objects().len())))
+}
+
+/// The base of these objects, and of every member of an option of an object in it.
+fn reached_from(
+    scene: &Scene,
+    mut order: Vec<ObjectIndex>,
+    model: &dyn GraspModel,
+    budget: &Budget<'_>,
+) -> Result<KnowledgeBase, NoBase> {
     let count = scene.objects().len();
-    // The relevant objects in breadth-first order; renumbered at the end.
+    // The objects in breadth-first order; renumbered at the end.
     let mut reached = KnowledgeBase::new();
     let mut seen = vec![false; count];
-    seen[target.get()] = true;
-    let mut order = vec![target];
+    order.iter().for_each(|object| seen[object.get()] = true);
     while let Some(&object) = order.get(reached.len()) {
         budget.check()?;
         reached.push(bodies(scene, object, model));
@@ -93,7 +131,7 @@ pub fn relevant(
     Ok(reached.renumbered(&order, count))
 }
 
-/// The fixed objects that block a member at some yaw by the swept finger, in index order.
+/// The objects that no plan moves, and that block a member at some yaw by the swept finger, in index order.
 ///
 /// # Errors
 /// [`Interrupted`] when the budget ends.
@@ -102,20 +140,25 @@ pub fn fixed_blockers(
     members: &[ObjectIndex],
     budget: &Budget<'_>,
 ) -> Result<Vec<ObjectIndex>, Interrupted> {
-    let fixed = |object: ObjectIndex| scene.object(object).fixed();
+    let stays = |object: ObjectIndex| !has_rules(scene, object);
     let mut found: Vec<ObjectIndex> = Vec::new();
-    for &member in members.iter().filter(|member| !fixed(**member)) {
+    for &member in members.iter().filter(|member| !stays(**member)) {
         budget.check()?;
-        found.extend(those_blocking(scene, member, &SweptFinger, fixed).into_iter().map(|blocker| blocker.object));
+        found.extend(those_blocking(scene, member, &SweptFinger, stays).into_iter().map(|blocker| blocker.object));
     }
     found.sort_unstable();
     found.dedup();
     Ok(found)
 }
 
-/// The bodies of the rules by which an object is picked: the options of the grasp model; none for a fixed object. Options with
-/// a fixed member stay: their rules never fire, and locks need them. An action that moves objects without grasping them adds
-/// its bodies here, for all but the target, which is grasped in the end.
+/// True if an object may be moved, or is grasped in the end.
+fn has_rules(scene: &Scene, object: ObjectIndex) -> bool {
+    scene.movable(object) || scene.goal().is_candidate(object)
+}
+
+/// The bodies of the rules by which an object is picked, to be put aside or taken away: the options of the grasp model; none for
+/// an object that is as if fixed. Options with such a member stay: their rules never fire, and locks need them. An action that
+/// moves objects without grasping them adds its bodies here, for all but the candidates, which are grasped in the end.
 fn bodies(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Vec<Vec<ObjectIndex>> {
-    if scene.object(object).fixed() { Vec::new() } else { model.options(scene, object) }
+    if has_rules(scene, object) { model.options(scene, object) } else { Vec::new() }
 }

@@ -44,10 +44,15 @@ pub enum Sought {
 }
 
 /// The base that a search needs. The forward search may relocate objects unrelated to the target.
-pub(super) fn base(methods: &Methods, scene: &Scene, budget: &Budget<'_>) -> Result<KnowledgeBase, NoBase> {
+pub(super) fn base(
+    methods: &Methods,
+    scene: &Scene,
+    target: ObjectIndex,
+    budget: &Budget<'_>,
+) -> Result<KnowledgeBase, NoBase> {
     let model = methods.grasp_model.model();
     match methods.search {
-        SearchMethod::Landmarks | SearchMethod::Lobs => relevant(scene, scene.target(), model, budget),
+        SearchMethod::Landmarks | SearchMethod::Lobs => relevant(scene, target, model, budget),
         SearchMethod::ForwardAstar => complete(scene, model, budget),
     }
 }

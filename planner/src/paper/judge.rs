@@ -10,7 +10,7 @@ use super::warning::Warning;
 use crate::budget::{Budget, Interrupted};
 use crate::knowledge::{KnowledgeBase, Locks, NoBase, SweptFinger, relevant};
 use crate::plan::{ids, prove_deadlock};
-use crate::scene::Scene;
+use crate::scene::{ObjectIndex, Scene};
 use crate::search::{LeastSet, SILENT};
 use crate::statement::{Statement, Verdict};
 
@@ -33,7 +33,7 @@ impl From<Statement> for Found {
 
 /// The statement with its proof for the swept finger, and warnings about its faults.
 pub(super) fn judge(
-    scene: &Scene,
+    (scene, target): (&Scene, ObjectIndex),
     methods: &Methods,
     Found { stated, sought }: Found,
     warnings: &mut Vec<Warning>,
@@ -44,18 +44,17 @@ pub(super) fn judge(
     if sectors {
         let base = sought.as_ref().map(|(base, _)| base);
         // An incomplete count is not reported.
-        if let Ok(pairs @ 1..) = count_tangent_angles(scene, base, &budget) {
+        if let Ok(pairs @ 1..) = count_tangent_angles(scene, target, base, &budget) {
             warnings.push(Warning::TangentAngle { pairs });
         }
     }
     let Some((base, sought)) = sought else { return stated };
-    let exactly = |base: &KnowledgeBase| {
-        seek(SearchMethod::Landmarks, base, scene.target(), &SearchLimits::default(), &budget, SILENT)
-    };
+    let exactly =
+        |base: &KnowledgeBase| seek(SearchMethod::Landmarks, base, target, &SearchLimits::default(), &budget, SILENT);
     let exact = (methods.search != SearchMethod::Landmarks).then(|| exactly(&base));
     warnings.extend(exact.as_ref().and_then(|exact| disagreement(&sought, exact)));
     let opinion = if sectors {
-        let base = relevant(scene, scene.target(), &SweptFinger, &budget);
+        let base = relevant(scene, target, &SweptFinger, &budget);
         base.map_or_else(Opinion::from, |base| opinion(scene, &base, exactly(&base), &budget))
     } else {
         opinion(scene, &base, exact.unwrap_or(sought), &budget)
@@ -72,10 +71,11 @@ pub(super) fn judge(
 /// Counts only among the grasps that the search needed.
 fn count_tangent_angles(
     scene: &Scene,
+    target: ObjectIndex,
     base: Option<&KnowledgeBase>,
     budget: &Budget<'_>,
 ) -> Result<usize, Interrupted> {
-    let asked = |object| object == scene.target() || base.is_some_and(|base| base.options(object).next().is_some());
+    let asked = |object| object == target || base.is_some_and(|base| base.options(object).next().is_some());
     let pairs = |object| budget.check().map(|()| tangent_angles(scene, object));
     scene.indices().filter(|object| asked(*object)).map(pairs).sum()
 }

@@ -48,7 +48,8 @@ fn faulty(warnings: &[Warning]) -> bool {
     warnings.iter().any(|warning| matches!(warning, Warning::Faulty(_)))
 }
 
-/// Plan for the scene's target by these methods. Where all are our own this is [`plan`]. Otherwise the answer is judged by
+/// Plan for the scene's goal by these methods. Where all are our own, or the goal is no target, this is [`plan`]: the paper knows
+/// no other goal. Otherwise the answer is judged by
 /// our own methods, within the same time: bounds and locks are those of the swept finger, and objections of the checker or of
 /// our search become warnings.
 ///
@@ -61,14 +62,14 @@ pub fn plan_by(
     budget: &Budget<'_>,
     progress: Progress<'_>,
 ) -> Result<Judged, PlanError> {
-    if methods.proven() {
+    let Some(target) = scene.target().filter(|_| !methods.proven()) else {
         return plan(scene, settings, budget, progress).map(Judged::from);
-    }
+    };
     let (mut statistics, mut warnings) = (Statistics::default(), Vec::new());
-    let run = Run { methods, scene, settings, budget, progress };
+    let run = Run { methods, scene, target, settings, budget, progress };
     let found = run.find(&mut statistics, &mut warnings)?;
     let checked = || {
-        let judged = judge(scene, methods, found, &mut warnings, budget);
+        let judged = judge((scene, target), methods, found, &mut warnings, budget);
         confirm(scene, judged, methods.unproven_by(), &mut warnings, budget)
     };
     let statement = timed(&mut statistics.check, budget, checked)?;
@@ -78,6 +79,7 @@ pub fn plan_by(
 struct Run<'a> {
     methods: &'a Methods,
     scene: &'a Scene,
+    target: ObjectIndex,
     settings: &'a Settings,
     budget: &'a Budget<'a>,
     progress: Progress<'a>,
@@ -85,16 +87,16 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn find(&self, times: &mut Statistics, warnings: &mut Vec<Warning>) -> Result<Found, PlanError> {
-        let Self { methods, scene, budget, .. } = *self;
-        let target = scene.target();
+        let Self { methods, scene, target, budget, .. } = *self;
         let searching = budget.share(SEARCH_SHARE);
-        let base = match timed(&mut times.knowledge, budget, || base(methods, scene, &searching)) {
+        let base = match timed(&mut times.knowledge, budget, || base(methods, scene, target, &searching)) {
             Ok(base) => base,
             Err(NoBase::Interrupted) => return Ok(Statement::timed_out().into()),
             Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
         };
         if base.free_now(target) {
-            return graspable_now(scene, methods.grasp_model.model()).map(|grasp| Statement::graspable(grasp).into());
+            return graspable_now(scene, target, methods.grasp_model.model())
+                .map(|grasp| Statement::graspable(grasp).into());
         }
         let search = || seek(methods.search, &base, target, &SearchLimits::default(), &searching, self.progress);
         let sought = timed(&mut times.search, budget, search);
@@ -134,11 +136,13 @@ impl Run<'_> {
     ) -> Result<Option<Arrangement>, Interrupted> {
         let (scene, model) = (self.scene, self.methods.grasp_model.model());
         let budget = self.budget.share(PLACEMENT_SHARE);
-        let question = Question { scene, base, model, objective: self.settings.objective };
+        let question = Question { scene, base, goal: self.target, model, objective: self.settings.objective };
         match (self.methods.placement, placing) {
             (PlacementMethod::Exact, Placing::Least) => arrange_least(&question, derivation.clone(), &budget),
             (PlacementMethod::Exact, _) => arrange_one(&question, derivation, &budget),
-            (PlacementMethod::Raster(raster), _) => reposition(scene, &derivation.order, &raster, model, &budget),
+            (PlacementMethod::Raster(raster), _) => {
+                reposition(scene, self.target, &derivation.order, &raster, model, &budget)
+            }
         }
     }
 }

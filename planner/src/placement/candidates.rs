@@ -28,6 +28,8 @@ pub(super) struct PlaceSpec {
     /// The gap to the table's edge and to keep-outs, m.
     pub(super) edge_gap: f64,
     pub(super) objective: Objective,
+    /// The point from which places are far by [`Objective::FarFromTarget`].
+    pub(super) focus: Point2<f64>,
 }
 
 /// Places in the order of their score.
@@ -107,7 +109,7 @@ impl Candidates {
         let scene = layout.scene();
         let own = layout.footprint(spec.object);
         let origin = match spec.objective {
-            Objective::FarFromTarget => scene.object(scene.target()).footprint().at(),
+            Objective::FarFromTarget => spec.focus,
             Objective::ShortMoves => own.at(),
         };
         Self {
@@ -279,7 +281,7 @@ mod tests {
     fn places_beyond_the_limit_are_forgotten_even_with_equal_scores() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
-        let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective };
+        let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective, focus: Point2::new(1.0, 1.0) };
         let mut candidates = Candidates::empty(&Layout::new(&scene, &SweptFinger), spec);
         let place = |n: u32| HeapEntry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
         let curve = HeapEntry { kind: Kind::Obstacle(object), ..place(0) };

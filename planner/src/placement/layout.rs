@@ -51,6 +51,11 @@ impl<'a> Layout<'a> {
         }
     }
 
+    /// The object leaves the table for good.
+    pub fn take_away(&mut self, object: ObjectIndex) {
+        self.lift(object, true);
+    }
+
     pub(super) fn lift(&mut self, object: ObjectIndex, lifted: bool) {
         self.lifted[object.get()] = lifted;
     }
@@ -97,9 +102,19 @@ impl<'a> Layout<'a> {
 
 /// The widest grasp of an object in the scene at the start.
 pub fn grasp_in_place(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Option<Grasp> {
+    grasp_without(scene, object, &[], model)
+}
+
+/// The same once some objects are gone.
+pub fn grasp_without(
+    scene: &Scene,
+    object: ObjectIndex,
+    gone: &[ObjectIndex],
+    model: &dyn GraspModel,
+) -> Option<Grasp> {
     let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
-    let others =
-        scene.index().within(grasped.at(), model.reach(gripper, &grasped)).filter(|(other, _)| *other != object);
+    let near = scene.index().within(grasped.at(), model.reach(gripper, &grasped));
+    let others = near.filter(|(other, _)| *other != object && !gone.contains(other));
     let shadows: Vec<ArcSet> = others.map(|(_, other)| model.shadow(gripper, &grasped, &other, 0.0)).collect();
     widest_grasp(gripper, &ArcSet::union(gripper.period(), &shadows))
 }

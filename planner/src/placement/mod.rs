@@ -1,21 +1,26 @@
-//! Where relocated objects go.
+//! Where objects go that are moved: to another place on the table, or to a drop-off.
 //!
 //! A place must be on the table, outside keep-outs, apart from every other object, with a free release yaw, and must
 //! leave every grasp still to come a free yaw. Candidates come from the continuum: where border curves of the free
 //! space meet.
 
 mod arrange;
+mod arranger;
 mod borders;
 mod candidates;
 mod curves;
+mod drop_offs;
 mod effort;
 mod layout;
 mod scatter;
 mod tabletop;
+mod task;
 
-pub use arrange::{Arrangement, Task, arrange};
+pub use arrange::arrange;
+pub use drop_offs::DropOffs;
 pub use effort::Effort;
-pub use layout::{Layout, grasp_in_place};
+pub use layout::{Layout, grasp_in_place, grasp_without};
+pub use task::{Arrangement, Drops, Task};
 
 use crate::geometry::Grasp;
 use crate::scene::{ObjectIndex, Pose};
@@ -41,10 +46,32 @@ impl Objective {
     }
 }
 
+/// One step of an arrangement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Move {
+    /// To another place on the table.
+    Place(Relocation),
+    /// To a drop-off.
+    Drop(Removal),
+}
+
+/// One pick-and-drop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Removal {
+    /// The object that is taken away; never a candidate of the goal, never a fixed object.
+    pub object: ObjectIndex,
+    /// Where it stood.
+    pub from: Pose,
+    /// The grasp there.
+    pub grasp: Grasp,
+    /// The position of the drop-off in the scene's list.
+    pub drop_off: usize,
+}
+
 /// One pick-and-place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relocation {
-    /// The object that is moved; never the target, never a fixed object.
+    /// The object that is moved; never a candidate of the goal, never a fixed object.
     pub object: ObjectIndex,
     /// Where it stood.
     pub from: Pose,

@@ -91,19 +91,21 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Ok(if release.is_some() && self.leaves_the_rest_free(object, &place, rest)? { release } else { None })
     }
 
-    /// True if, with the object at `place`, the rest can still be lifted one after the other and the target grasped.
+    /// True if, with the object at `place`, the rest can still be lifted one after the other and the target, if there is one,
+    /// grasped.
     fn leaves_the_rest_free(
         &mut self,
         object: ObjectIndex,
         place: &Footprint,
         rest: &[ObjectIndex],
     ) -> Result<bool, Stop> {
-        let target = self.layout.scene().target();
+        let scene = self.layout.scene();
+        let target = scene.target();
         let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
             let grasped = layout.footprint(other);
             distance(grasped.at(), place.at()) < layout.reach(&grasped) + place.circumradius()
         };
-        if !rest.iter().chain([&target]).any(|&other| hinders(&self.layout, other)) {
+        if !rest.iter().chain(&target).any(|&other| hinders(&self.layout, other)) {
             return Ok(true);
         }
         self.layout.lift(object, false);
@@ -140,6 +142,9 @@ impl<'a, 'e> Tabletop<'a, 'e> {
             }
             standing = stuck;
         }
-        Ok(self.grasp(self.layout.scene().target())?.is_some())
+        match self.layout.scene().target() {
+            Some(target) => Ok(self.grasp(target)?.is_some()),
+            None => Ok(true),
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::stated::ids;
 use crate::budget::Budget;
 use crate::check::{Checker, FaultCode, Report, Terms};
 use crate::knowledge::NoBase;
-use crate::scene::Scene;
+use crate::scene::{Goal, Scene};
 use crate::statement::Statement;
 
 /// Why there is no answer.
@@ -20,7 +20,7 @@ pub enum PlanError {
 }
 
 /// The part of the statement that the checker confirms in time, with the bound that it computed. Its scene may have any
-/// target.
+/// goal.
 ///
 /// # Errors
 /// [`PlanError::Refused`] if any part does not hold.
@@ -34,6 +34,9 @@ pub(crate) fn confirm(
     if report.faults.iter().any(|fault| !fault.code.means_late()) {
         return Err(PlanError::Refused(report));
     }
+    if *scene.goal() == Goal::Clear {
+        return Ok(confirmed_clearing(scene, stated, &report));
+    }
     let confirmed = confirmed_part(scene, stated, &report);
     if !report.has(FaultCode::LockUnconfirmed) && !report.has(FaultCode::ReplayUnconfirmed) {
         return Ok(confirmed);
@@ -45,6 +48,17 @@ pub(crate) fn confirm(
     } else {
         Statement { lower_bound: confirmed.lower_bound, landmarks: confirmed.landmarks, ..timed_out }
     })
+}
+
+/// The steps of a clearing that were replayed, with the lock and the proof as far as they were confirmed.
+fn confirmed_clearing(scene: &Scene, stated: Statement, report: &Report) -> Statement {
+    let mut confirmed =
+        if report.has(FaultCode::ReplayUnconfirmed) { stated.up_to_step(scene, report.replayed) } else { stated };
+    if report.has(FaultCode::LockUnconfirmed) {
+        confirmed.stuck = None;
+    }
+    confirmed.proven = Some(report.clearing_proven);
+    confirmed
 }
 
 /// The statement with the confirmed part of the bound, and the needed objects only if confirmed.

@@ -1,33 +1,20 @@
 //! Alternates relocation sets with placement, cheapest first.
 
+use super::attempt::{Question, attempt, for_steps};
 use crate::budget::{Budget, Interrupted};
 use crate::cost::Cost;
-use crate::knowledge::{GraspModel, KnowledgeBase};
-use crate::placement::{Arrangement, Effort, Objective, Task, arrange};
-use crate::scene::Scene;
+use crate::placement::{Arrangement, Effort};
 use crate::search::{Alternatives, Derivation};
 
 /// The effort for one answer, reached only where space is very short: half a second, or some seconds where a large disc
 /// stands among thousands of small ones.
 const MAX_EFFORT: u32 = 1_000_000;
-/// The effort for one set, so that other sets get their turn.
-const MAX_EFFORT_PER_SET: u32 = 100_000;
-/// Extra effort per relocation, for both limits: a long plan needs many places, each found among the earlier ones.
-const EFFORT_PER_STEP: u32 = 10_000;
 /// The most relocations tried beyond the cost of the least set.
 const MAX_EXTRA: u64 = 3;
 /// The most sets tried.
 const MAX_SETS: usize = 32;
 /// The share of the time in which further sets are searched.
 const SETS_SHARE: f64 = 0.5;
-
-/// The placement problem.
-pub(crate) struct Question<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) base: &'a KnowledgeBase,
-    pub(crate) model: &'a dyn GraspModel,
-    pub(crate) objective: Objective,
-}
 
 /// The cheapest arrangement found: least sets first, then larger ones and extra moves together. `None` once the effort
 /// is spent or the candidates are exhausted.
@@ -40,7 +27,7 @@ pub(crate) fn arrange_least(
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     let cheapest = first.cost();
-    let mut alternatives = Alternatives::new(question.base, question.scene.target(), first);
+    let mut alternatives = Alternatives::new(question.base, question.goal, first);
     let more = |budget: &Budget<'_>| alternatives.next(budget);
     Coupling {
         question,
@@ -129,29 +116,6 @@ impl<M: FnMut(&Budget<'_>) -> Result<Option<Derivation>, Interrupted>> Coupling<
     }
 }
 
-/// One set with as many extra moves as the cost allows. If the places that are best by the objective lead nowhere,
-/// those that are best by another one are tried: a worse place is better than one more relocation.
-fn attempt(
-    question: &Question<'_>,
-    set: &Derivation,
-    cost: Cost,
-    effort: &mut Effort,
-    budget: &Budget<'_>,
-) -> Result<Option<Arrangement>, Interrupted> {
-    for objective in [question.objective, question.objective.other()] {
-        let Question { scene, model, .. } = *question;
-        let extra = cost.beyond(set.cost());
-        let task = Task { scene, model, set: &set.order, extra, objective };
-        let mut part = effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(cost)));
-        let found = arrange(&task, &mut part, budget)?;
-        effort.join(part);
-        if found.is_some() {
-            return Ok(found);
-        }
-    }
-    Ok(None)
-}
-
 /// One set without alternatives, for a search that ran out of time with a derivation.
 ///
 /// # Errors
@@ -165,10 +129,6 @@ pub(crate) fn arrange_one(
     attempt(question, set, set.cost(), &mut effort, budget)
 }
 
-fn for_steps(cost: Cost) -> u32 {
-    EFFORT_PER_STEP.saturating_mul(u32::try_from(cost.get()).unwrap_or(u32::MAX))
-}
-
 #[cfg(test)]
 mod tests {
     use core::cell::Cell;
@@ -177,6 +137,7 @@ mod tests {
     use super::*;
     use crate::budget::Clock;
     use crate::knowledge::{SweptFinger, complete};
+    use crate::placement::Objective;
     use crate::scene::ObjectIndex;
     use crate::scene::scenes::TestScene;
 
@@ -206,7 +167,13 @@ mod tests {
             .disc("west", 0.022_59, 0.025_764, 0.021_03)
             .build("cup");
         let base = complete(&scene, &SweptFinger, &Budget::unlimited()).unwrap();
-        let question = Question { scene: &scene, base: &base, model: &SweptFinger, objective: Objective::default() };
+        let question = Question {
+            scene: &scene,
+            base: &base,
+            goal: ObjectIndex::new(0),
+            model: &SweptFinger,
+            objective: Objective::default(),
+        };
         let clock = Ticking::default();
         let budget = Budget::new(&clock, Duration::from_secs(100));
         let mut coming = coming.iter();
@@ -234,7 +201,7 @@ mod tests {
     }
 
     fn cost(arranged: Result<Option<Arrangement>, Interrupted>) -> Option<usize> {
-        arranged.unwrap().map(|arrangement| arrangement.relocations.len())
+        arranged.unwrap().map(|arrangement| arrangement.moves.len())
     }
 
     #[test]

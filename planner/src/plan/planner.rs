@@ -1,24 +1,22 @@
 //! The main loop: knowledge, search, placement, check. It knows only what is proven.
 
 use super::answer::{Answer, Statistics, timed};
+use super::attempt::{Question, free_candidates};
+use super::clearing;
 use super::confirm::{PlanError, confirm};
-use super::couple::{Question, arrange_least, arrange_one};
+use super::couple::{arrange_least, arrange_one};
 use super::reasons::{graspable_now, prove_deadlock};
 use super::settings::Settings;
+use super::shares::{PLACEMENT_SHARE, SEARCH_SHARE};
 use crate::budget::{Budget, Interrupted};
 use crate::check::Checker;
-use crate::knowledge::{NoBase, SweptFinger, relevant};
+use crate::knowledge::{NoBase, SweptFinger, of_goal};
 use crate::placement::Arrangement;
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{Goal, ObjectIndex, Scene};
 use crate::search::{Derivation, Memory, Progress, Restriction, SearchOutcome, least_within};
 use crate::statement::Statement;
 
-/// The share of the time for knowledge and search.
-pub(crate) const SEARCH_SHARE: f64 = 0.6;
-/// The share of the rest for placement, or for the locks of a deadlock; the last part is the checker's.
-pub(crate) const PLACEMENT_SHARE: f64 = 0.75;
-
-/// Plan for the scene's target. All parts look at the budget; when it ends, the best known answer is returned. `progress` is
+/// Plan for the scene's goal. All parts look at the budget; when it ends, the best known answer is returned. `progress` is
 /// told of the search's incumbents and bounds; they are unchecked and ignore places.
 ///
 /// # Errors
@@ -36,6 +34,14 @@ pub fn plan(
     Ok(Answer { statement, statistics })
 }
 
+/// The statement where time ended before anything was known: of a clearing no steps, of any other goal the trivial bound.
+pub fn nothing_in_time(scene: &Scene) -> Statement {
+    match scene.goal() {
+        Goal::Clear => Statement { proven: Some(false), ..Statement::uncleared(scene) },
+        _ => Statement::timed_out(),
+    }
+}
+
 /// The statement to check.
 fn stated(
     scene: &Scene,
@@ -44,21 +50,26 @@ fn stated(
     progress: Progress<'_>,
     times: &mut Statistics,
 ) -> Result<Statement, PlanError> {
-    let (target, searching) = (scene.target(), budget.share(SEARCH_SHARE));
-    let known = || relevant(scene, target, &SweptFinger, &searching);
-    let base = match timed(&mut times.knowledge, budget, known) {
-        Ok(base) => base,
+    if *scene.goal() == Goal::Clear {
+        return clearing::stated(scene, budget, times);
+    }
+    let searching = budget.share(SEARCH_SHARE);
+    let known = || of_goal(scene, &SweptFinger, &searching);
+    let (base, goal) = match timed(&mut times.knowledge, budget, known) {
+        Ok(known) => known,
         Err(NoBase::Interrupted) => return Ok(Statement::timed_out()),
         Err(NoBase::TooLarge) => return Err(PlanError::TooDense),
     };
-    if base.free_now(target) {
-        return graspable_now(scene, &SweptFinger).map(Statement::graspable);
+    if base.free_now(goal) {
+        let free = free_candidates(scene, &SweptFinger, &[]);
+        let target = free.first().copied().unwrap_or(goal);
+        return graspable_now(scene, target, &SweptFinger).map(|grasp| Statement::graspable(grasp).of(scene, target));
     }
     let (memory, whole) = (Memory::default(), Restriction::default());
-    let search = || least_within(&memory, &base, target, &whole, &searching, progress);
+    let search = || least_within(&memory, &base, goal, &whole, &searching, progress);
     let outcome = timed(&mut times.search, budget, search);
     let rest = budget.share(PLACEMENT_SHARE);
-    let question = Question { scene, base: &base, model: &SweptFinger, objective: settings.objective };
+    let question = Question { scene, base: &base, goal, model: &SweptFinger, objective: settings.objective };
     match outcome {
         SearchOutcome::Least(set) => {
             let place = || arrange_least(&question, set.derivation.clone(), &rest);
@@ -87,9 +98,13 @@ pub(crate) fn placed(
     derivation: &Derivation,
     without: fn(&Scene, &[ObjectIndex]) -> Statement,
 ) -> Statement {
-    match found {
-        Ok(Some(plan)) => Statement::relocate(scene, &plan),
+    let stated = match found {
+        Ok(Some(plan)) => return Statement::relocate(scene, &plan),
         Ok(None) => without(scene, &derivation.order),
         Err(Interrupted) => Statement::cut_off(scene, &derivation.order),
+    };
+    match free_candidates(scene, &SweptFinger, &derivation.order).first() {
+        Some(&target) => stated.of(scene, target),
+        None => stated,
     }
 }

@@ -3,10 +3,10 @@
 use crate::cost::Cost;
 use crate::geometry::Grasp;
 use crate::knowledge::Locks;
-use crate::placement::{Arrangement, Relocation};
-use crate::scene::{ObjectIndex, Scene};
+use crate::placement::{Arrangement, Move, Relocation, Removal};
+use crate::scene::{Goal, ObjectIndex, Scene};
 use crate::search::LeastSet;
-use crate::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use crate::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 impl Statement {
     /// The target can be grasped as the table stands: so every bound is met.
@@ -22,20 +22,30 @@ impl Statement {
 
     /// A plan without a bound.
     pub(crate) fn relocate(scene: &Scene, plan: &Arrangement) -> Self {
-        let steps: Vec<Step> = plan.relocations.iter().map(|step| Step::PickPlace(pick_place(scene, step))).collect();
-        Self {
+        let steps: Vec<Step> = plan.moves.iter().map(|step| self::step(scene, step)).collect();
+        let stated = Self {
             verdict: Some(Verdict::Relocate),
             cost: Some(steps.iter().map(Step::cost).sum()),
             relocations: Some(steps),
-            target_grasp: Some(plan.target_grasp.into()),
+            target_grasp: plan.target_grasp.map(|(_, grasp)| grasp.into()),
             ..Self::default()
+        };
+        match plan.target_grasp {
+            Some((target, _)) => stated.of(scene, target),
+            None => stated,
         }
+    }
+
+    /// The same with the object that is grasped in the end, where the goal leaves the choice.
+    #[must_use]
+    pub(crate) fn of(self, scene: &Scene, target: ObjectIndex) -> Self {
+        let chosen = matches!(scene.goal(), Goal::AnyOf(_)).then(|| scene.object(target).id().to_owned());
+        Self { target: chosen, ..self }
     }
 
     /// A deadlock with its proof.
     pub(crate) fn deadlock(scene: &Scene, Locks { blocked, core }: &Locks) -> Self {
-        let deadlock = Deadlock { blocked: ids(scene, blocked), core: ids(scene, core) };
-        Self { deadlock: Some(deadlock), ..Self::unproven_deadlock() }
+        Self { deadlock: Some(locked(scene, blocked, core)), ..Self::unproven_deadlock() }
     }
 
     /// A deadlock that nothing proves.
@@ -66,6 +76,28 @@ impl Statement {
 impl From<Grasp> for StatedGrasp {
     fn from(grasp: Grasp) -> Self {
         Self { yaw: grasp.yaw, slack: Some(grasp.slack) }
+    }
+}
+
+/// A step of an arrangement.
+pub(super) fn step(scene: &Scene, step: &Move) -> Step {
+    match step {
+        Move::Place(relocation) => Step::PickPlace(pick_place(scene, relocation)),
+        Move::Drop(removal) => Step::PickDrop(pick_drop(scene, removal)),
+    }
+}
+
+/// The locks by ids.
+pub(super) fn locked(scene: &Scene, blocked: &[ObjectIndex], core: &[ObjectIndex]) -> Deadlock {
+    Deadlock { blocked: ids(scene, blocked), core: ids(scene, core) }
+}
+
+fn pick_drop(scene: &Scene, step: &Removal) -> PickDrop {
+    PickDrop {
+        object: scene.object(step.object).id().to_owned(),
+        from: Some(step.from),
+        grasp: step.grasp.into(),
+        drop_off: scene.drop_offs()[step.drop_off].id().to_owned(),
     }
 }
 

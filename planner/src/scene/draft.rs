@@ -1,8 +1,12 @@
 //! The draft of a scene: unchecked input.
 
+use super::drop_off::{Destination, DropOffDraft};
 use super::footprint::ShapeDraft;
+use super::goal::GoalDraft;
+use super::gripper::Opening;
 
-/// An unchecked scene. `None` means that the part was absent or unreadable; the reader of the input reports that.
+/// An unchecked scene. `None` means that the part was absent or unreadable; the reader of the input reports that if the part is
+/// required.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SceneDraft {
     /// The table.
@@ -11,8 +15,12 @@ pub struct SceneDraft {
     pub gripper: GripperDraft,
     /// The objects, in the caller's order; unreadable ones keep their place.
     pub objects: Vec<ObjectDraft>,
-    /// The id of the object to be grasped.
-    pub target: Option<String>,
+    /// What is wanted.
+    pub goal: Option<GoalDraft>,
+    /// The drop-offs, in the caller's order; `None` if the caller named none.
+    pub drop_offs: Option<Vec<DropOffDraft>>,
+    /// Where objects go that have to move; `None` for the default.
+    pub destination: Option<Destination>,
 }
 
 /// An unchecked rectangle, m.
@@ -50,6 +58,10 @@ pub struct GripperDraft {
     pub margin: Option<f64>,
     /// rad. Default: 0.
     pub yaw_tolerance: Option<f64>,
+    /// m. Default: no limit.
+    pub max_opening: Option<f64>,
+    /// Default: [`Opening::Fit`].
+    pub opening: Option<Opening>,
 }
 
 /// An unchecked object.

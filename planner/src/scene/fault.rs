@@ -1,8 +1,6 @@
-//! Faults and warnings of a scene, as data: the place and the kind.
+//! Faults and warnings of a scene, as data: the place and the flaw.
 
-use core::fmt;
-
-use super::Rectangle;
+use super::flaw::Flaw;
 
 /// A place in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,185 +21,18 @@ pub enum Place {
     WholeObject(usize),
     /// The target's id.
     Target,
-}
-
-/// The kind of a fault or warning. Warnings are: an overlap within the tolerance, fingers that overlap, a disc that
-/// hangs over the table's edge, a number that looks like a slip of its unit.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Flaw {
-    /// A number outside its range, bounds included.
-    #[error("{value} is not between {min} and {max}")]
-    OutOfRange {
-        /// The number given.
-        value: f64,
-        /// The least admitted value.
-        min: f64,
-        /// The greatest admitted value.
-        max: f64,
-    },
-    /// A yaw tolerance above its range.
-    #[error("{value} is not between 0 and {max}: degrees instead of radians?")]
-    AngleOutOfRange {
-        /// The number given.
-        value: f64,
-        /// The greatest admitted value, rad.
-        max: f64,
-    },
-    /// A count that is not a whole number.
-    #[error("{0} is not a whole number")]
-    NotWhole(f64),
-    /// A rectangle whose upper bound is not above its lower bound.
-    #[error("the upper bound {max} is not above the lower bound {min}")]
-    EmptyRectangle {
-        /// The lower bound given, m.
-        min: f64,
-        /// The upper bound given, m.
-        max: f64,
-    },
-    /// An id of no or too many characters.
-    #[error("an id has 1 to {max} characters, this one has {length}")]
-    IdLength {
-        /// Characters given.
-        length: usize,
-        /// The most that is admitted.
-        max: usize,
-    },
-    /// An id that an earlier object has.
-    #[error("'{id}' is already the id of object {first}")]
-    DuplicateId {
-        /// The id.
-        id: String,
-        /// The position of the earlier object.
-        first: usize,
-    },
-    /// More objects than the limit.
-    #[error("{count} objects are more than the limit of {max}")]
-    TooManyObjects {
-        /// Objects given.
-        count: usize,
-        /// The most that is admitted.
-        max: usize,
-    },
-    /// The target is no object's id.
-    #[error("there is no object '{0}'")]
-    UnknownTarget(String),
-    /// The target can't be moved.
-    #[error("the target '{0}' is fixed")]
-    FixedTarget(String),
-    /// The centre is not on the table.
-    #[error("the centre ({x}, {y}) is not on the table ({top}){likely}")]
-    OffTable {
-        /// Centre, m.
-        x: f64,
-        /// Centre, m.
-        y: f64,
-        /// The table top.
-        top: Rectangle,
-        /// The likely cause.
-        likely: Likely,
-    },
-    /// Two discs overlap.
-    #[error("overlaps '{other}' by {depth:.6} m (tolerance {tolerance} m){likely}")]
-    Overlap {
-        /// The other object's id.
-        other: String,
-        /// How deep, m.
-        depth: f64,
-        /// The deepest overlap that counts as perception noise, m.
-        tolerance: f64,
-        /// The likely cause.
-        likely: Likely,
-    },
-    /// More obstacles within reach of one grasp than the limit.
-    #[error("a grasp of '{id}' has more than {max} obstacles in reach")]
-    TooManyNeighbours {
-        /// The object that is grasped.
-        id: String,
-        /// The most that is admitted.
-        max: usize,
-    },
-    /// A disc hangs over the table's edge by more than a third of its radius.
-    #[error("hangs over the table's edge by {overhang:.6} m, more than a third of its radius {radius} m")]
-    HangsOverTable {
-        /// How far, m.
-        overhang: f64,
-        /// r, m.
-        radius: f64,
-    },
-    /// With this yaw tolerance one obstacle in reach blocks every yaw.
-    #[error(
-        "a yaw tolerance of {tolerance} rad is π/{fingers} or more, so one obstacle in reach blocks every yaw: degrees \
-         instead of radians?"
-    )]
-    WideYawTolerance {
-        /// The tolerance, rad.
-        tolerance: f64,
-        /// k.
-        fingers: u32,
-    },
-    /// A length out of proportion to the others of the scene.
-    #[error("{length} m is out of all proportion to {yardstick}: millimetres instead of metres?")]
-    OutOfProportion {
-        /// The length, m.
-        length: f64,
-        /// The length that it was compared with.
-        yardstick: Yardstick,
-    },
-    /// Neighbouring fingers overlap at the edge of the object.
-    #[error("fingers of width {finger_width} m overlap round '{id}' of radius {radius} m")]
-    FingersOverlap {
-        /// The object that is grasped.
-        id: String,
-        /// w, m.
-        finger_width: f64,
-        /// r, m.
-        radius: f64,
-    },
-}
-
-/// The likely cause of a fault, as the end of its sentence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Likely {
-    /// No single cause is likely.
-    Open,
-    /// The objects are given in another unit, or in another frame than the table.
-    FrameOrUnit,
-    /// Two detections of one object.
-    SeenTwice,
-    /// The lengths are no metres, or two detections of one object.
-    UnitOrSeenTwice,
-}
-
-impl fmt::Display for Likely {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Open => "",
-            Self::FrameOrUnit => ": another frame, or millimetres instead of metres?",
-            Self::SeenTwice => ": one object seen twice?",
-            Self::UnitOrSeenTwice => ": millimetres instead of metres, or one object seen twice?",
-        })
-    }
-}
-
-/// A length that another one is compared with, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Yardstick {
-    /// The largest radius of an object.
-    LargestRadius(f64),
-    /// The smallest radius of an object.
-    SmallestRadius(f64),
-    /// The sides of the table.
-    Table(f64, f64),
-}
-
-impl fmt::Display for Yardstick {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::LargestRadius(radius) => write!(f, "the largest radius, {radius} m"),
-            Self::SmallestRadius(radius) => write!(f, "the smallest radius, {radius} m"),
-            Self::Table(x, y) => write!(f, "the table of {x:.3} m by {y:.3} m"),
-        }
-    }
+    /// A field of the goal: its list of ids.
+    Goal(&'static str),
+    /// The n-th id of the goal's list.
+    GoalMember(&'static str, usize),
+    /// Where objects go that have to move.
+    Destination,
+    /// The list of drop-offs as a whole.
+    DropOffs,
+    /// A field of the n-th drop-off.
+    DropOff(usize, &'static str),
+    /// The m-th id that the n-th drop-off accepts.
+    Accepts(usize, usize),
 }
 
 /// A flaw and its place.
@@ -227,6 +58,10 @@ impl Findings {
         if !self.full() {
             self.list.push(Finding { place, flaw });
         }
+    }
+
+    pub(super) fn extend(&mut self, place: Place, flaws: impl IntoIterator<Item = Flaw>) {
+        flaws.into_iter().for_each(|flaw| self.add(place, flaw));
     }
 
     pub(super) fn full(&self) -> bool {

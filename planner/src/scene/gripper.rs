@@ -12,6 +12,18 @@ pub struct Gripper {
     pub(super) clearance: f64,
     pub(super) margin: f64,
     pub(super) yaw_tolerance: f64,
+    pub(super) max_opening: Option<f64>,
+    pub(super) opening: Opening,
+}
+
+/// How far the fingers open before a grasp, and after a release.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Opening {
+    /// To the clearance beyond the object's edge: a hand with driven fingers.
+    #[default]
+    Fit,
+    /// All the way, whatever the object: a hand that is either open or closed.
+    Full,
 }
 
 /// The least width of a free interval of yaws, rad: far above the rounding of an interval's end, far below the
@@ -44,6 +56,31 @@ impl Gripper {
         self.yaw_tolerance
     }
 
+    /// The distance between the inner faces of two open jaws, m; for more fingers twice their distance from the axis. `None` if
+    /// no object is too wide.
+    pub fn max_opening(&self) -> Option<f64> {
+        self.max_opening
+    }
+
+    /// How far the fingers open.
+    pub fn opening(&self) -> Opening {
+        self.opening
+    }
+
+    /// True if `grasped` fits between the open fingers.
+    pub fn spans(&self, grasped: &Footprint) -> bool {
+        self.max_opening.is_none_or(|opening| grasped.circumradius() <= opening / 2.0)
+    }
+
+    /// R, the distance of the open fingers' outer edges from the origin of `grasped`, m.
+    pub fn outer_distance(&self, grasped: &Footprint) -> f64 {
+        let inner = match (self.opening, self.max_opening) {
+            (Opening::Full, Some(opening)) => opening / 2.0,
+            _ => grasped.circumradius(),
+        };
+        inner + self.clearance
+    }
+
     /// 2π/k: a turn by this angle gives the same grasp.
     pub fn period(&self) -> f64 {
         TAU / f64::from(self.fingers)
@@ -61,7 +98,7 @@ impl Gripper {
 
     /// The greatest distance of the open fingers' outer corners from the origin of `grasped`, m.
     pub fn corner_distance(&self, grasped: &Footprint) -> f64 {
-        let (outer, half) = (grasped.circumradius() + self.clearance, self.finger_width / 2.0);
+        let (outer, half) = (self.outer_distance(grasped), self.finger_width / 2.0);
         (outer * outer + half * half).sqrt()
     }
 }

@@ -2,7 +2,7 @@
 
 /// Coordinates, m. At 100 km a double still resolves 1.5e-11 m, well below the checker's 1e-9 m.
 pub const COORDINATE_RANGE: (f64, f64) = (-1e5, 1e5);
-/// Radii, finger width and clearance, m.
+/// Radii, finger width, clearance and greatest opening, m.
 pub const LENGTH_RANGE: (f64, f64) = (1e-6, 1e3);
 /// Margin, m.
 pub const MARGIN_RANGE: (f64, f64) = (0.0, 1e3);
@@ -10,6 +10,10 @@ pub const MARGIN_RANGE: (f64, f64) = (0.0, 1e3);
 pub const YAW_TOLERANCE_RANGE: (f64, f64) = (0.0, core::f64::consts::PI);
 /// k: two fingers are the fewest that hold, and no gripper is known with more than twelve.
 pub const FINGERS_RANGE: (f64, f64) = (2.0, 12.0);
+/// How many objects a drop-off takes.
+pub const CAPACITY_RANGE: (f64, f64) = (1.0, 1e9);
+/// The most drop-offs: more than a cell can reach.
+pub const MAX_DROP_OFFS: usize = 1000;
 /// The longest id, in characters. Ids are repeated many times in an answer.
 pub const MAX_ID_LENGTH: usize = 128;
 

@@ -1,12 +1,15 @@
-//! The checked scene: table, gripper, objects, target. All other rooms use these types.
+//! The checked scene: table, gripper, objects, drop-offs, goal. All other rooms use these types.
 //!
 //! A [`SceneDraft`] is unchecked input. A [`Scene`] is valid: every number is in its range, ids are unique, centres are
-//! on the table, overlaps are no deeper than perception noise, and the target is movable. [`Scene::new`] is the only
+//! on the table, overlaps are no deeper than perception noise, and what the goal names can be grasped. [`Scene::new`] is the only
 //! way to make one.
 
 mod draft;
+mod drop_off;
 mod fault;
+mod flaw;
 mod footprint;
+mod goal;
 mod gripper;
 mod index;
 mod limits;
@@ -17,16 +20,21 @@ pub(crate) mod scenes;
 mod slips;
 mod table;
 mod validate;
+mod wanted;
 
 use std::sync::Arc;
 
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
-pub use fault::{Finding, Flaw, Likely, MAX_FINDINGS, Place, Yardstick};
+pub use drop_off::{Destination, DropOff, DropOffDraft};
+pub use fault::{Finding, MAX_FINDINGS, Place};
+pub use flaw::{Flaw, Likely, Yardstick};
 pub use footprint::{Footprint, Pose, Shape, ShapeDraft, distance};
-pub use gripper::{Gripper, MIN_FREE_WIDTH};
+pub use goal::{Goal, GoalDraft};
+pub use gripper::{Gripper, MIN_FREE_WIDTH, Opening};
 pub use index::FootprintIndex;
 pub use limits::{
-    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
+    CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_DROP_OFFS, MAX_ID_LENGTH,
+    SceneLimits, YAW_TOLERANCE_RANGE,
 };
 pub use object::{Object, ObjectIndex};
 pub use table::{Rectangle, Table};
@@ -35,16 +43,18 @@ pub use table::{Rectangle, Table};
 #[derive(Debug, Clone)]
 pub struct Scene {
     parts: Arc<Parts>,
-    target: ObjectIndex,
+    goal: Arc<Goal>,
 }
 
-/// The scene without its target.
+/// The scene without its goal.
 #[derive(Debug)]
 struct Parts {
     table: Table,
     gripper: Gripper,
     objects: Vec<Object>,
     index: FootprintIndex,
+    drop_offs: Vec<DropOff>,
+    destination: Destination,
 }
 
 impl Scene {
@@ -82,14 +92,48 @@ impl Scene {
         (0..self.parts.objects.len()).map(ObjectIndex::new)
     }
 
-    /// The object to be grasped; never a fixed one.
-    pub fn target(&self) -> ObjectIndex {
-        self.target
+    /// What is wanted.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
     }
 
-    /// The same scene with another target. `None` if that one is fixed.
+    /// The one object to be grasped; `None` for another kind of goal.
+    pub fn target(&self) -> Option<ObjectIndex> {
+        self.goal.target()
+    }
+
+    /// The same scene with another goal: to grasp this object. `None` if it can't be grasped.
     pub fn with_target(&self, target: ObjectIndex) -> Option<Self> {
-        (!self.object(target).fixed).then(|| Self { parts: Arc::clone(&self.parts), target })
+        let goal = Arc::new(Goal::Target(target));
+        self.object(target).can_be_grasped().then(|| Self { parts: Arc::clone(&self.parts), goal })
+    }
+
+    /// The same scene without a goal, for questions about every object.
+    #[must_use]
+    pub fn without_goal(&self) -> Self {
+        Self { parts: Arc::clone(&self.parts), goal: Arc::new(Goal::AnyOf(Vec::new())) }
+    }
+
+    /// The drop-offs, in the caller's order.
+    pub fn drop_offs(&self) -> &[DropOff] {
+        &self.parts.drop_offs
+    }
+
+    /// Where objects go that have to move.
+    pub fn destination(&self) -> Destination {
+        self.parts.destination
+    }
+
+    /// True if what is moved leaves the table in any case.
+    pub fn only_drops(&self) -> bool {
+        *self.goal == Goal::Clear || self.parts.destination == Destination::DropOff
+    }
+
+    /// True if a plan may move the object, the goal's own candidates apart. All others are as if fixed: those that are, those too
+    /// wide for the hand, and where what is moved leaves the table, those that no drop-off accepts.
+    pub fn movable(&self, object: ObjectIndex) -> bool {
+        let object = self.object(object);
+        object.can_be_grasped() && (object.accepted || !self.only_drops())
     }
 
     /// The object with this id.

@@ -1,6 +1,8 @@
 //! Objects on the table.
 
+use super::flaw::Flaw;
 use super::footprint::Footprint;
+use super::gripper::Gripper;
 
 /// The position of an object in its scene's list. The planner names objects only by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -24,6 +26,8 @@ pub struct Object {
     pub(super) id: String,
     pub(super) footprint: Footprint,
     pub(super) fixed: bool,
+    pub(super) too_wide: bool,
+    pub(super) accepted: bool,
 }
 
 impl Object {
@@ -32,13 +36,24 @@ impl Object {
         &self.id
     }
 
+    /// The flaw of being too wide for the hand; none for an object that nobody grasps.
+    pub(super) fn wider_than(&self, gripper: &Gripper) -> Option<Flaw> {
+        let max_opening = gripper.max_opening().filter(|_| !self.fixed && !gripper.spans(&self.footprint))?;
+        Some(Flaw::TooWide { id: self.id.clone(), width: 2.0 * self.footprint.circumradius(), max_opening })
+    }
+
     /// Where it stands at the start.
     pub fn footprint(&self) -> Footprint {
         self.footprint
     }
 
-    /// True if it can't be moved.
+    /// True if the caller calls it fixed.
     pub fn fixed(&self) -> bool {
         self.fixed
+    }
+
+    /// True if it is not fixed and fits between the open fingers.
+    pub fn can_be_grasped(&self) -> bool {
+        !self.fixed && !self.too_wide
     }
 }

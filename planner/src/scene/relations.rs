@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::fault::{Findings, Flaw, Likely, Place};
+use super::fault::{Findings, Place};
+use super::flaw::{Flaw, Likely};
 use super::slips;
 use super::{Footprint, FootprintIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
 
@@ -98,7 +99,7 @@ pub(super) fn reach(
     warnings: &mut Findings,
 ) {
     let half_angle_tangent = libm::tan(gripper.period() / 2.0);
-    for (at, object) in objects.iter().enumerate().filter(|(_, object)| !object.fixed) {
+    for (at, object) in objects.iter().enumerate().filter(|(_, object)| object.can_be_grasped()) {
         let id = || object.id.clone();
         let reach = gripper.reach(&object.footprint);
         // The index finds the object itself too.

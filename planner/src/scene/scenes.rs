@@ -1,6 +1,9 @@
 //! A builder of scenes for unit tests.
 
-use super::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
+use super::{
+    Destination, DropOffDraft, GoalDraft, GripperDraft, ObjectDraft, Opening, RectangleDraft, Scene, SceneDraft,
+    SceneLimits, ShapeDraft,
+};
 
 /// The builder. By default: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
 #[derive(Clone)]
@@ -18,6 +21,7 @@ impl TestScene {
             clearance: Some(0.05),
             margin: Some(0.0),
             yaw_tolerance: Some(0.0),
+            ..GripperDraft::default()
         };
         Self(SceneDraft { gripper, ..SceneDraft::default() }).table(2.0, 2.0)
     }
@@ -76,8 +80,30 @@ impl TestScene {
         self
     }
 
-    pub(crate) fn build(mut self, target: &str) -> Scene {
-        self.0.target = Some(target.into());
+    pub(crate) fn drop_off(mut self, id: &str, capacity: Option<u32>, accepts: Option<&[&str]>) -> Self {
+        let accepts = accepts.map(|ids| ids.iter().map(|id| Some((*id).to_owned())).collect());
+        let drop_off = DropOffDraft { id: Some(id.into()), capacity: capacity.map(f64::from), accepts };
+        self.0.drop_offs.get_or_insert_default().push(drop_off);
+        self
+    }
+
+    pub(crate) fn destination(mut self, destination: Destination) -> Self {
+        self.0.destination = Some(destination);
+        self
+    }
+
+    pub(crate) fn opening(mut self, max_opening: f64, opening: Opening) -> Self {
+        self.0.gripper.max_opening = Some(max_opening);
+        self.0.gripper.opening = Some(opening);
+        self
+    }
+
+    pub(crate) fn build(self, target: &str) -> Scene {
+        self.with_goal(GoalDraft::Target(target.into()))
+    }
+
+    pub(crate) fn with_goal(mut self, goal: GoalDraft) -> Scene {
+        self.0.goal = Some(goal);
         Scene::new(self.0, &SceneLimits::default()).expect("a scene that holds").0
     }
 }

@@ -8,7 +8,8 @@ use core::f64::consts::PI;
 
 use nalgebra::Point2;
 
-use super::fault::{Findings, Flaw, Likely, Place, Yardstick};
+use super::fault::{Findings, Place};
+use super::flaw::{Flaw, Likely, Yardstick};
 use super::{Footprint, Gripper, Object, Rectangle};
 
 /// The threshold of a length in largest radii, if it is also at least [`LONG`].
@@ -46,9 +47,12 @@ pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warni
         warnings.add(Place::Gripper("yaw_tolerance"), Flaw::WideYawTolerance { tolerance, fingers });
     }
     let scale = Scale::new(top, objects);
+    // A hand is as large as what it spans: half of its opening compares with a radius.
+    let half_opening = gripper.max_opening.unwrap_or_default() / 2.0;
     let lengths = [
         (Place::Gripper("finger_width"), gripper.finger_width, scale.finger(gripper.finger_width)),
         (Place::Gripper("clearance"), gripper.clearance, scale.finger(gripper.clearance)),
+        (Place::Gripper("max_opening"), 2.0 * half_opening, scale.opening(half_opening)),
         (Place::Gripper("margin"), gripper.margin, scale.margin(gripper.margin)),
         (Place::WholeTable, scale.shorter(), scale.table()),
     ];
@@ -91,6 +95,12 @@ impl Scale {
         let too_short = self.smallest >= HUGE_RADIUS && length < FINGER_IN_RADIUS * self.smallest;
         let too_long = self.too_long(length, FINGER_TO_RADIUS, FINGER_TO_TABLE * self.longer());
         too_long.or(too_short.then_some(Yardstick::SmallestRadius(self.smallest)))
+    }
+
+    /// The length for which half of a greatest opening is too long, if any. One that is too short makes objects too wide, which
+    /// is told of each.
+    fn opening(&self, half: f64) -> Option<Yardstick> {
+        self.too_long(half, FINGER_TO_RADIUS, FINGER_TO_TABLE * self.longer())
     }
 
     fn too_long(&self, length: f64, to_radius: f64, to_table: f64) -> Option<Yardstick> {

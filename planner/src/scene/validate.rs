@@ -5,15 +5,18 @@ use std::sync::Arc;
 
 use nalgebra::Point2;
 
-use super::fault::{Finding, Findings, Flaw, Place};
+use super::drop_off::drop_offs;
+use super::fault::{Finding, Findings, Place};
+use super::flaw::Flaw;
 use super::limits::{
     COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
 };
 use super::relations::{overhangs, overlaps, reach};
 use super::slips;
+use super::wanted::{attainable, named};
 use super::{
-    Footprint, FootprintIndex, Gripper, GripperDraft, Object, ObjectDraft, ObjectIndex, Parts, Rectangle,
-    RectangleDraft, Scene, SceneDraft, Table, TableDraft,
+    Destination, DropOff, Footprint, FootprintIndex, Gripper, GripperDraft, Object, ObjectDraft, Opening, Parts,
+    Rectangle, RectangleDraft, Scene, SceneDraft, Table, TableDraft,
 };
 
 pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene, Vec<Finding>), Vec<Finding>> {
@@ -32,9 +35,16 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
         .enumerate()
         .map(|(at, object)| self::object(at, object, table.as_ref(), &mut faults))
         .collect();
-    let target = draft.target.as_ref().and_then(|id| target(id, &ids, &draft.objects, &mut faults));
+    let stated = draft.drop_offs.as_deref().unwrap_or_default();
+    let drop_offs = drop_offs(stated, &ids, &mut faults, &mut warnings);
+    let goal = draft.goal.as_ref().and_then(|goal| named(goal, &ids, &draft.objects, &mut faults));
+    let default = if stated.is_empty() { Destination::Table } else { Destination::TableThenDropOff };
+    let destination = draft.destination.unwrap_or(default);
+    if destination == Destination::DropOff && stated.is_empty() {
+        warnings.add(Place::Destination, Flaw::NothingAccepted);
+    }
     // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
-    let Some(objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
+    let Some(mut objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
     let index = FootprintIndex::new(objects.iter().map(Object::footprint));
     if let (Some(table), Some(gripper)) = (&table, &gripper) {
         // Slips first, before the warnings that follow from them.
@@ -43,15 +53,38 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     }
     overlaps(&objects, &index, limits, &mut faults, &mut warnings);
     if let Some(gripper) = &gripper {
+        too_wide(gripper, &mut objects, &mut warnings);
         reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
     }
+    let (Some(table), Some(gripper), Some(drop_offs), Some(goal)) = (table, gripper, drop_offs, goal) else {
+        return Err(faults.into_vec());
+    };
+    accept(&drop_offs, &mut objects);
+    let goal = attainable(goal, &objects, &gripper, &drop_offs, &mut faults);
     let faults = faults.into_vec();
-    match (table, gripper, target) {
-        (Some(table), Some(gripper), Some(target)) if faults.is_empty() => {
-            let parts = Parts { table, gripper, objects, index };
-            Ok((Scene { parts: Arc::new(parts), target }, warnings.into_vec()))
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let parts = Parts { table, gripper, objects, index, drop_offs, destination };
+    Ok((Scene { parts: Arc::new(parts), goal: Arc::new(goal) }, warnings.into_vec()))
+}
+
+/// Marks and warns of objects that no hand spans.
+fn too_wide(gripper: &Gripper, objects: &mut [Object], warnings: &mut Findings) {
+    for (at, object) in objects.iter_mut().enumerate() {
+        if let Some(flaw) = object.wider_than(gripper) {
+            object.too_wide = true;
+            warnings.add(Place::WholeObject(at), flaw);
         }
-        _ => Err(faults),
+    }
+}
+
+/// Marks the objects that some drop-off accepts.
+fn accept(drop_offs: &[DropOff], objects: &mut [Object]) {
+    let any = drop_offs.iter().any(|drop_off| drop_off.accepts.is_none());
+    objects.iter_mut().for_each(|object| object.accepted = any);
+    for accepted in drop_offs.iter().filter_map(DropOff::accepts).flatten() {
+        objects[accepted.get()].accepted = true;
     }
 }
 
@@ -103,7 +136,13 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
     let finger_width = field(draft.finger_width, LENGTH_RANGE, "finger_width");
     let clearance = field(draft.clearance, LENGTH_RANGE, "clearance");
     let margin = field(draft.margin, MARGIN_RANGE, "margin");
+    let max_opening = draft.max_opening.map(|value| field(Some(value), LENGTH_RANGE, "max_opening"));
     let yaw_tolerance = yaw_tolerance(draft.yaw_tolerance, faults);
+    let opening = draft.opening.unwrap_or_default();
+    if opening == Opening::Full && max_opening.is_none() {
+        faults.add(Place::Gripper("max_opening"), Flaw::NoMaxOpening);
+        return None;
+    }
     let fingers = fingers.and_then(|value| {
         if value.fract() == 0.0 {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 12")]
@@ -118,6 +157,11 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
         clearance: clearance?,
         margin: margin?,
         yaw_tolerance: yaw_tolerance?,
+        max_opening: match max_opening {
+            Some(checked) => Some(checked?),
+            None => None,
+        },
+        opening,
     })
 }
 
@@ -160,25 +204,7 @@ fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Fi
         id: draft.id.clone()?,
         footprint: Footprint { shape: shape?, pose: centre.into() },
         fixed: draft.fixed,
+        too_wide: false,
+        accepted: false,
     })
-}
-
-fn target(id: &str, ids: &HashMap<&str, usize>, objects: &[ObjectDraft], faults: &mut Findings) -> Option<ObjectIndex> {
-    // The target may be an object whose id could not be read.
-    let unreadable = objects.iter().any(|object| object.id.is_none());
-    match ids.get(id) {
-        Some(&at) if objects[at].fixed => faults.add(Place::Target, Flaw::FixedTarget(id.to_owned())),
-        Some(&at) => return Some(ObjectIndex::new(at)),
-        None if !unreadable => {
-            // A string too long to be an id is not repeated.
-            let length = id.chars().count();
-            let flaw = match length > MAX_ID_LENGTH {
-                true => Flaw::IdLength { length, max: MAX_ID_LENGTH },
-                false => Flaw::UnknownTarget(id.to_owned()),
-            };
-            faults.add(Place::Target, flaw);
-        }
-        None => {}
-    }
-    None
 }

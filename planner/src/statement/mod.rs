@@ -5,7 +5,7 @@ mod step;
 
 use crate::cost::Cost;
 
-pub use step::{PickPlace, StatedGrasp, Step};
+pub use step::{PickDrop, PickPlace, StatedGrasp, Step};
 
 /// A stated answer. Parts that are `None` are not checked.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Statement {
     pub verdict: Option<Verdict>,
     /// The steps, in order of execution.
     pub relocations: Option<Vec<Step>>,
+    /// The id of the object that is grasped in the end, where the goal leaves the choice.
+    pub target: Option<String>,
     /// The final grasp of the target.
     pub target_grasp: Option<StatedGrasp>,
     /// The cost of the steps.
@@ -28,6 +30,12 @@ pub struct Statement {
     pub deadlock: Option<Deadlock>,
     /// The best known derivation if there is no plan: ids, in order.
     pub needed: Option<Vec<String>>,
+    /// Of a clearing: the lock of what can never be taken away.
+    pub stuck: Option<Deadlock>,
+    /// Of a clearing: the ids of the objects that stay, those apart that the caller calls fixed.
+    pub left: Option<Vec<String>>,
+    /// Of a clearing: true if no order takes more away.
+    pub proven: Option<bool>,
 }
 
 /// The verdicts.
@@ -35,17 +43,21 @@ pub struct Statement {
 pub enum Verdict {
     /// The target can be grasped as the table stands.
     Graspable,
-    /// The plan frees the target.
+    /// The plan reaches the goal.
     Relocate,
-    /// No sequence of pick-and-place frees the target; proven only if the statement's `deadlock` says why.
+    /// No sequence of steps reaches the goal; proven only if the statement's `deadlock` says why.
     Deadlock,
     /// Effort spent or places exhausted without a checked plan; not a proof.
     NoSpace,
     /// The time limit came first, with no plan in hand.
     TimedOut,
+    /// The steps take away all but what the caller calls fixed.
+    Cleared,
+    /// The steps take some of it away, or none.
+    PartlyCleared,
 }
 
-/// Two locks, the proof of a deadlock. They hold against pick-and-place: no movable member can be picked while the others stand.
+/// Two locks, the proof of a deadlock: no movable member can be picked while the others stand.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Deadlock {
     /// The ids of the greatest lock, with fixed objects that block a member.
@@ -79,7 +91,15 @@ impl Statement {
 
 impl Verdict {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Graspable, Self::Relocate, Self::Deadlock, Self::NoSpace, Self::TimedOut];
+    pub const ALL: [Self; 7] = [
+        Self::Graspable,
+        Self::Relocate,
+        Self::Deadlock,
+        Self::NoSpace,
+        Self::TimedOut,
+        Self::Cleared,
+        Self::PartlyCleared,
+    ];
 
     /// Its name in answers and logs.
     pub fn as_str(self) -> &'static str {
@@ -89,6 +109,8 @@ impl Verdict {
             Self::Deadlock => "deadlock",
             Self::NoSpace => "no_space",
             Self::TimedOut => "timed_out",
+            Self::Cleared => "cleared",
+            Self::PartlyCleared => "partly_cleared",
         }
     }
 }

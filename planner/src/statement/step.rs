@@ -8,6 +8,8 @@ use crate::scene::Pose;
 pub enum Step {
     /// Lift an object and set it down elsewhere.
     PickPlace(PickPlace),
+    /// Lift an object and take it away to a drop-off.
+    PickDrop(PickDrop),
 }
 
 /// A stated pick-and-place.
@@ -27,6 +29,19 @@ pub struct PickPlace {
     pub gap: Option<f64>,
 }
 
+/// A stated pick-and-drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PickDrop {
+    /// The id of the object taken away.
+    pub object: String,
+    /// Where it stood.
+    pub from: Option<Pose>,
+    /// How it is picked.
+    pub grasp: StatedGrasp,
+    /// The id of the drop-off that it is taken to.
+    pub drop_off: String,
+}
+
 /// A stated grasp or release.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StatedGrasp {
@@ -41,6 +56,7 @@ impl Step {
     pub fn object(&self) -> &str {
         match self {
             Self::PickPlace(step) => &step.object,
+            Self::PickDrop(step) => &step.object,
         }
     }
 
@@ -48,6 +64,7 @@ impl Step {
     pub fn rests_at(&self) -> Option<Pose> {
         match self {
             Self::PickPlace(step) => Some(step.to),
+            Self::PickDrop(_) => None,
         }
     }
 
@@ -55,6 +72,7 @@ impl Step {
     pub fn pick_place(&self) -> Option<&PickPlace> {
         match self {
             Self::PickPlace(step) => Some(step),
+            Self::PickDrop(_) => None,
         }
     }
 
@@ -62,20 +80,22 @@ impl Step {
     pub fn pick_place_mut(&mut self) -> Option<&mut PickPlace> {
         match self {
             Self::PickPlace(step) => Some(step),
+            Self::PickDrop(_) => None,
         }
     }
 
     /// Where the object stands on the table before and after, as far as stated.
     pub fn places(&self) -> impl Iterator<Item = Pose> + use<> {
         match self {
-            Self::PickPlace(step) => step.from.into_iter().chain([step.to]),
+            Self::PickPlace(step) => step.from.into_iter().chain(Some(step.to)),
+            Self::PickDrop(step) => step.from.into_iter().chain(None),
         }
     }
 
     /// What the step adds to the cost of a plan: at least one, since a bound counts the objects that have to move.
     pub fn cost(&self) -> Cost {
         match self {
-            Self::PickPlace(_) => Cost::new(1),
+            Self::PickPlace(_) | Self::PickDrop(_) => Cost::new(1),
         }
     }
 }

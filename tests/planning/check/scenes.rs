@@ -4,7 +4,9 @@ use nalgebra::Point2;
 use singulate_planner::budget::Budget;
 use singulate_planner::check::{Checker, FaultCode, Report};
 use singulate_planner::cost::Cost;
-use singulate_planner::scene::{GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
+use singulate_planner::scene::{
+    GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
+};
 use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 pub(crate) struct Builder(SceneDraft);
@@ -24,6 +26,7 @@ impl Builder {
             clearance: Some(0.05),
             margin: Some(0.0),
             yaw_tolerance: Some(0.0),
+            ..GripperDraft::default()
         };
         Self(draft)
     }
@@ -79,7 +82,7 @@ impl Builder {
     }
 
     pub(crate) fn build(mut self, target: &str) -> Scene {
-        self.0.target = Some(target.into());
+        self.0.goal = Some(GoalDraft::Target(target.into()));
         let limits = SceneLimits { max_objects: 20_000, ..SceneLimits::default() };
         Scene::new(self.0, &limits).expect("a scene that holds").0
     }

@@ -31,7 +31,7 @@ use super::angles::radius;
 use crate::budget::{Budget, Interrupted};
 use crate::geometry::{Grasp, widest_grasp};
 use crate::knowledge::GraspModel;
-use crate::placement::{Arrangement, INSIDE, Layout, Relocation};
+use crate::placement::{Arrangement, INSIDE, Layout, Move, Relocation};
 use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
 
 use blot::Blot;
@@ -49,25 +49,27 @@ use threshold::{WHITE, threshold};
 /// [`Interrupted`] when the budget ends.
 pub fn reposition(
     scene: &Scene,
+    target: ObjectIndex,
     order: &[ObjectIndex],
     raster: &Raster,
     model: &dyn GraspModel,
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     let mut table =
-        Pictured { layout: Layout::new(scene, model), scene, convolution: Convolution::new(*raster), raster };
-    let mut relocations = Vec::with_capacity(order.len());
+        Pictured { layout: Layout::new(scene, model), scene, target, convolution: Convolution::new(*raster), raster };
+    let mut moves = Vec::with_capacity(order.len());
     for (at, &object) in order.iter().enumerate() {
         let Some(to) = table.place(object, &order[at + 1..], budget)? else { return Ok(None) };
-        relocations.push(table.relocate(object, to.into()));
+        moves.push(Move::Place(table.relocate(object, to.into())));
     }
-    Ok(Some(Arrangement { relocations, target_grasp: table.grasp(scene.target()) }))
+    Ok(Some(Arrangement { moves, target_grasp: Some((target, table.grasp(target))) }))
 }
 
 /// A layout and the images that are made of it.
 struct Pictured<'a> {
     layout: Layout<'a>,
     scene: &'a Scene,
+    target: ObjectIndex,
     convolution: Convolution,
     raster: &'a Raster,
 }
@@ -109,7 +111,7 @@ impl Pictured<'_> {
         self.convolution.run(&grown, &mask, budget)?;
         let gripper = self.scene.gripper();
         let least = threshold(radius, gripper.clearance(), gripper.period()) / WHITE * mask.pixels() as f64;
-        let target = self.layout.footprint(self.scene.target()).at();
+        let target = self.layout.footprint(self.target).at();
         let mut best: Option<(f64, Point2<f64>)> = None;
         for row in rows {
             budget.check()?;
@@ -143,7 +145,7 @@ impl Pictured<'_> {
         let around = |object: &ObjectIndex| Blot::disc(&self.layout.footprint(*object), apart + gripper.clearance());
         let keep_outs = self.scene.table().keep_out().iter().map(|area| Blot::round(area, radius + INSIDE));
         let others = self.others(object).map(|(_, disc)| Blot::disc(&disc, apart));
-        let target = self.scene.target();
+        let target = self.target;
         others.chain(keep_outs).chain(later.iter().chain([&target]).map(around)).collect()
     }
 }

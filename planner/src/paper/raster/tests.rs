@@ -9,11 +9,17 @@ use crate::knowledge::{GraspModel, SweptFinger};
 use crate::scene::Gripper;
 use crate::scene::scenes::TestScene;
 
+fn relocations(arrangement: &Arrangement) -> Vec<Relocation> {
+    let relocation = |step: &Move| if let Move::Place(relocation) = step { Some(*relocation) } else { None };
+    arrangement.moves.iter().filter_map(relocation).collect()
+}
+
 fn moved(scene: &Scene, ids: &[&str], resolution: f64) -> Option<Vec<Relocation>> {
     let order: Vec<ObjectIndex> = ids.iter().map(|id| scene.find(id).unwrap()).collect();
     let raster = Raster::new(resolution, scene.table()).unwrap();
-    let arrangement = reposition(scene, &order, &raster, &SweptFinger, &Budget::unlimited()).unwrap();
-    arrangement.map(|arrangement| arrangement.relocations)
+    let arrangement =
+        reposition(scene, scene.target().unwrap(), &order, &raster, &SweptFinger, &Budget::unlimited()).unwrap();
+    arrangement.map(|arrangement| relocations(&arrangement))
 }
 
 #[track_caller]
@@ -26,7 +32,7 @@ fn check(scene: &Scene, id: &str, resolution: f64, expected: Option<(f64, f64)>)
 /// The definition, pixel by pixel.
 fn by_plain_counting(scene: &Scene, raster: &Raster, object: ObjectIndex) -> Option<Point2<f64>> {
     let (gripper, own) = (scene.gripper(), scene.object(object).footprint());
-    let (margin, target) = (gripper.margin(), scene.object(scene.target()).footprint());
+    let (margin, target) = (gripper.margin(), scene.object(scene.target().unwrap()).footprint());
     let others: Vec<Footprint> =
         scene.indices().filter(|o| *o != object).map(|o| scene.object(o).footprint()).collect();
     let mut pixels = Vec::new();
@@ -162,8 +168,10 @@ fn a_grasp_or_release_that_is_blocked_is_stated_without_slack() {
         .build("t");
     let raster = Raster::new(0.01, scene.table()).unwrap();
     let steps = [1, 1].map(ObjectIndex::new);
-    let plan = reposition(&scene, &steps, &raster, &OnlyAtHome, &Budget::unlimited()).unwrap().unwrap();
-    let [first, second] = plan.relocations[..] else { unreachable!("two steps") };
+    let plan = reposition(&scene, scene.target().unwrap(), &steps, &raster, &OnlyAtHome, &Budget::unlimited())
+        .unwrap()
+        .unwrap();
+    let [first, second] = relocations(&plan)[..] else { unreachable!("two steps") };
     assert!((first.grasp.yaw - 2.0).abs() < 1e-9 && (first.grasp.slack - 1.0).abs() < 1e-9, "{first:?}");
     assert_eq!(first.release, Grasp { slack: 0.0, ..first.grasp });
     assert_eq!((second.grasp, second.release), (Grasp { yaw: 0.0, slack: 0.0 }, Grasp { yaw: 0.0, slack: 0.0 }));
@@ -175,7 +183,8 @@ fn a_budget_that_ends_anywhere_interrupts() {
     let raster = Raster::new(0.02, scene.table()).unwrap();
     let ends_at = |looks: usize| {
         let clock = Looks::ending_after(looks);
-        (reposition(&scene, &[ObjectIndex::new(1)], &raster, &SweptFinger, &clock.budget()), clock.seen())
+        let target = scene.target().unwrap();
+        (reposition(&scene, target, &[ObjectIndex::new(1)], &raster, &SweptFinger, &clock.budget()), clock.seen())
     };
     let (done, looks) = ends_at(usize::MAX);
     assert!(matches!(done, Ok(Some(_))) && looks > 100, "{looks}");

@@ -1,0 +1,263 @@
+//! Depth-first search over the next object of a set and its place, or a drop-off.
+
+use nalgebra::Point2;
+
+use super::candidates::{Candidates, PlaceSpec};
+use super::drop_offs::DropOffs;
+use super::effort::EffortMeter;
+use super::layout::Layout;
+use super::tabletop::Tabletop;
+use super::task::{Arrangement, Drops, Task};
+use super::{Move, Objective, Relocation, Removal};
+use crate::budget::Stop;
+use crate::geometry::Grasp;
+use crate::scene::{ObjectIndex, Pose, distance};
+
+pub(super) struct Arranger<'a, 'e> {
+    task: &'a Task<'a>,
+    gaps: &'a [f64],
+    /// See [`PlaceSpec::focus`].
+    focus: Point2<f64>,
+    table: Tabletop<'a, 'e>,
+    /// The number of objects, and of places of each, that are tried at each step.
+    width: usize,
+    /// True if the width left something untried.
+    truncated: bool,
+    moves: Vec<Move>,
+    /// What is at the drop-offs: what leaves the table in any case, and one object more for each of the others so far.
+    drop_offs: Vec<DropOffs<'a>>,
+}
+
+impl<'a, 'e> Arranger<'a, 'e> {
+    /// `drop_offs` hold what leaves the table in any case.
+    pub(super) fn new(
+        task: &'a Task<'a>,
+        gaps: &'a [f64],
+        width: usize,
+        drop_offs: DropOffs<'a>,
+        meter: EffortMeter<'e>,
+    ) -> Self {
+        let table = Tabletop::new(Layout::new(task.scene, task.model), meter);
+        let (focus, drop_offs) = (task.focus(), vec![drop_offs]);
+        Self { task, gaps, focus, table, width, truncated: false, moves: Vec::new(), drop_offs }
+    }
+
+    /// True if the width left something untried.
+    pub(super) fn truncated(&self) -> bool {
+        self.truncated
+    }
+
+    /// Moves one of the remaining objects, then the rest.
+    pub(super) fn step(&mut self, remaining: &[ObjectIndex], extra: usize) -> Result<Option<Arrangement>, Stop> {
+        if remaining.is_empty() {
+            return Ok(self.done());
+        }
+        // What leaves the table goes as soon as it can: that hinders nothing.
+        for &object in remaining.iter().filter(|object| self.task.leaves(**object)) {
+            if let Some(grasp) = self.table.grasp(object)? {
+                let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != object).collect();
+                return self.take_away(object, grasp, &rest, extra);
+            }
+        }
+        let graspable = self.graspable(remaining)?;
+        self.truncated |= graspable.len() > self.width;
+        for &(object, grasp) in graspable.iter().take(self.width) {
+            let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != object).collect();
+            if let Some(done) = self.relocate(object, grasp, &rest, extra)? {
+                return Ok(Some(done));
+            }
+        }
+        if extra > 0
+            && let Some(&(stuck, _)) = graspable.first()
+            && self.task.drops != Drops::All
+        {
+            return self.make_room(stuck, remaining, extra - 1);
+        }
+        Ok(None)
+    }
+
+    /// The arrangement, once all of the set was moved.
+    fn done(&self) -> Option<Arrangement> {
+        let target_grasp = match self.task.scene.target() {
+            Some(target) => Some((target, self.table.layout.grasp(target)?)),
+            None => None,
+        };
+        let places = self.drop_offs.last()?.places();
+        let moves = self.moves.iter().map(|&step| match step {
+            Move::Drop(removal) => {
+                places[removal.object.get()].map(|drop_off| Move::Drop(Removal { drop_off, ..removal }))
+            }
+            Move::Place(_) => Some(step),
+        });
+        Some(Arrangement { moves: moves.collect::<Option<_>>()?, target_grasp })
+    }
+
+    /// The first of the remaining objects that can be grasped, at most one more than the width. The extra one shows that
+    /// the width left something out.
+    fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
+        let mut graspable = Vec::new();
+        for &object in remaining {
+            graspable.extend(self.table.grasp(object)?.map(|grasp| (object, grasp)));
+            if graspable.len() > self.width {
+                break;
+            }
+        }
+        Ok(graspable)
+    }
+
+    /// Moves some other object whose absence gives `stuck` a place.
+    fn make_room(
+        &mut self,
+        stuck: ObjectIndex,
+        remaining: &[ObjectIndex],
+        extra: usize,
+    ) -> Result<Option<Arrangement>, Stop> {
+        let scene = self.task.scene;
+        let other = |object: &ObjectIndex| {
+            scene.movable(*object)
+                && !scene.goal().is_candidate(*object)
+                && !remaining.contains(object)
+                && !self.table.layout.is_lifted(*object)
+        };
+        let others: Vec<ObjectIndex> = scene.indices().filter(other).collect();
+        for object in others {
+            let Some(grasp) = self.table.grasp(object)? else { continue };
+            if self.frees_a_place(object, stuck, remaining)?
+                && let Some(done) = self.relocate(object, grasp, remaining, extra)?
+            {
+                return Ok(Some(done));
+            }
+        }
+        Ok(None)
+    }
+
+    /// True if `stuck` has a place once `object` is gone.
+    fn frees_a_place(
+        &mut self,
+        object: ObjectIndex,
+        stuck: ObjectIndex,
+        remaining: &[ObjectIndex],
+    ) -> Result<bool, Stop> {
+        let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != stuck).collect();
+        self.table.layout.lift(object, true);
+        self.table.layout.lift(stuck, true);
+        let mut candidates = Candidates::new(&self.table.layout, self.spec(stuck, 0.0));
+        let found = self.table.next_place(&mut candidates, stuck, &rest, |_| false)?;
+        self.table.layout.lift(stuck, false);
+        self.table.layout.lift(object, false);
+        Ok(found.is_some())
+    }
+
+    /// Tries places for `object`, best first, then the drop-offs, and goes on with `rest` from each.
+    fn relocate(
+        &mut self,
+        object: ObjectIndex,
+        grasp: Grasp,
+        rest: &[ObjectIndex],
+        extra: usize,
+    ) -> Result<Option<Arrangement>, Stop> {
+        for (at, release) in self.places(object, rest)? {
+            if let Some(done) = self.go_on(object, grasp, at, release, rest, extra)? {
+                return Ok(Some(done));
+            }
+        }
+        let Drops::UpTo(most) = self.task.drops else { return Ok(None) };
+        let Some(held) = self.drop_offs.last().filter(|_| self.drop_offs.len() <= most) else { return Ok(None) };
+        let mut held = held.clone();
+        if !held.take(object) {
+            return Ok(None);
+        }
+        self.drop_offs.push(held);
+        let done = self.take_away(object, grasp, rest, extra)?;
+        if done.is_none() {
+            self.drop_offs.pop();
+        }
+        Ok(done)
+    }
+
+    /// Takes `object` away for good, and goes on with the rest.
+    fn take_away(
+        &mut self,
+        object: ObjectIndex,
+        grasp: Grasp,
+        rest: &[ObjectIndex],
+        extra: usize,
+    ) -> Result<Option<Arrangement>, Stop> {
+        let from = self.table.layout.footprint(object).pose;
+        self.table.layout.lift(object, true);
+        // The drop-off is known in the end, since objects may move on to others.
+        self.moves.push(Move::Drop(Removal { object, from, grasp, drop_off: 0 }));
+        let done = self.step(rest, extra)?;
+        if done.is_none() {
+            self.moves.pop();
+            self.table.layout.lift(object, false);
+        }
+        Ok(done)
+    }
+
+    /// The best places for `object`, as many as the width admits. They are found before any is tried: candidates take
+    /// memory by the size of the scene, and a plan may be hundreds of steps deep.
+    fn places(&mut self, object: ObjectIndex, rest: &[ObjectIndex]) -> Result<Vec<(Pose, Grasp)>, Stop> {
+        let radius = self.table.layout.footprint(object).circumradius();
+        let mut places: Vec<(Pose, Grasp)> = Vec::new();
+        self.table.layout.lift(object, true);
+        let passes = self.gaps.iter().map(|&preferred| (preferred, false)).chain([(0.0, true)]);
+        for (preferred, spread) in passes {
+            if places.len() >= self.width {
+                break;
+            }
+            let spec = self.spec(object, preferred);
+            let mut candidates = if spread {
+                Candidates::spread(&self.table.layout, spec)
+            } else {
+                Candidates::new(&self.table.layout, spec)
+            };
+            // Where one place fails, its neighbours usually fail too.
+            let near =
+                |places: &[(Pose, Grasp)], at: Pose| places.iter().any(|(other, _)| distance(other.at, at.at) < radius);
+            while places.len() < self.width
+                && let Some(place) = self.table.next_place(&mut candidates, object, rest, |at| near(&places, at))?
+            {
+                places.push(match self.task.objective {
+                    Objective::FarFromTarget => place,
+                    Objective::ShortMoves => self.table.pull_back(&candidates, object, rest, place)?,
+                });
+            }
+        }
+        self.table.layout.lift(object, false);
+        // There may be more places than were looked for.
+        self.truncated |= places.len() >= self.width;
+        Ok(places)
+    }
+
+    fn go_on(
+        &mut self,
+        object: ObjectIndex,
+        grasp: Grasp,
+        to: Pose,
+        release: Grasp,
+        rest: &[ObjectIndex],
+        extra: usize,
+    ) -> Result<Option<Arrangement>, Stop> {
+        let footprint = self.table.layout.footprint(object);
+        let gap = self.table.layout.gap(object, &footprint.moved_to(to));
+        let before = self.table.layout.put(object, to);
+        self.moves.push(Move::Place(Relocation { object, from: footprint.pose, to, grasp, release, gap }));
+        let done = self.step(rest, extra)?;
+        if done.is_none() {
+            self.moves.pop();
+            self.table.layout.take_back(object, before);
+        }
+        Ok(done)
+    }
+
+    fn spec(&self, object: ObjectIndex, preferred: f64) -> PlaceSpec {
+        PlaceSpec {
+            object,
+            gap: self.task.scene.gripper().margin() + preferred,
+            edge_gap: preferred,
+            objective: self.task.objective,
+            focus: self.focus,
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Which drop-off takes each object that is taken away.
+//!
+//! Drop-offs that accept some objects only, or hold some only, make this a bipartite matching with capacities. It grows by
+//! augmenting paths (Kuhn 1955): an object that is at a full drop-off moves on to another one where that makes room.
+
+use std::collections::VecDeque;
+
+use crate::scene::{ObjectIndex, Scene};
+
+/// Objects at drop-offs, each at one that accepts it, none over its capacity.
+#[derive(Clone)]
+pub struct DropOffs<'a> {
+    scene: &'a Scene,
+    /// Those that accept any object.
+    any: Vec<usize>,
+    /// Per object those that name it.
+    named: Vec<Vec<usize>>,
+    /// Per drop-off what it holds.
+    held: Vec<Vec<ObjectIndex>>,
+    /// Drop-offs that stay full: no further path makes room there, since objects are only added.
+    full: Vec<bool>,
+}
+
+/// How a path reached a drop-off: with this object, from the drop-off where it is.
+#[derive(Clone, Copy)]
+struct Hop {
+    object: ObjectIndex,
+    from: Option<usize>,
+}
+
+impl<'a> DropOffs<'a> {
+    /// The empty drop-offs of a scene.
+    pub fn new(scene: &'a Scene) -> Self {
+        let (mut any, mut named) = (Vec::new(), vec![Vec::new(); scene.objects().len()]);
+        for (at, drop_off) in scene.drop_offs().iter().enumerate() {
+            match drop_off.accepts() {
+                Some(objects) => objects.iter().for_each(|object| named[object.get()].push(at)),
+                None => any.push(at),
+            }
+        }
+        let count = scene.drop_offs().len();
+        Self { scene, any, named, held: vec![Vec::new(); count], full: vec![false; count] }
+    }
+
+    /// Takes one object more. False if there is no room for it, however the others are distributed; then nothing changes.
+    pub fn take(&mut self, object: ObjectIndex) -> bool {
+        let mut hops: Vec<Option<Hop>> = vec![None; self.held.len()];
+        let mut open = VecDeque::new();
+        if let Some(free) = self.reach(Hop { object, from: None }, &mut hops, &mut open) {
+            self.shift(free, &hops);
+            return true;
+        }
+        while let Some(at) = open.pop_front() {
+            for place in 0..self.held[at].len() {
+                let hop = Hop { object: self.held[at][place], from: Some(at) };
+                if let Some(free) = self.reach(hop, &mut hops, &mut open) {
+                    self.shift(free, &hops);
+                    return true;
+                }
+            }
+        }
+        hops.iter().zip(&mut self.full).for_each(|(hop, full)| *full |= hop.is_some());
+        false
+    }
+
+    /// Notes the drop-offs to which the object of the hop can go. Returns the first with room.
+    fn reach(&self, hop: Hop, hops: &mut [Option<Hop>], open: &mut VecDeque<usize>) -> Option<usize> {
+        let accepting = self.any.iter().chain(&self.named[hop.object.get()]).copied();
+        for at in accepting {
+            if self.full[at] || hops[at].is_some() {
+                continue;
+            }
+            hops[at] = Some(hop);
+            if self.scene.drop_offs()[at].capacity().is_none_or(|capacity| (self.held[at].len() as u64) < capacity) {
+                return Some(at);
+            }
+            open.push_back(at);
+        }
+        None
+    }
+
+    /// Moves each object of the path on by one drop-off.
+    fn shift(&mut self, free: usize, hops: &[Option<Hop>]) {
+        let mut at = free;
+        while let Some(Hop { object, from }) = hops[at] {
+            self.held[at].push(object);
+            let Some(from) = from else { return };
+            self.held[from].retain(|&other| other != object);
+            at = from;
+        }
+    }
+
+    /// Per object of the scene the drop-off that holds it.
+    pub fn places(&self) -> Vec<Option<usize>> {
+        let mut places = vec![None; self.scene.objects().len()];
+        for (at, objects) in self.held.iter().enumerate() {
+            objects.iter().for_each(|object| places[object.get()] = Some(at));
+        }
+        places
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::scenes::TestScene;
+
+    fn scene(drop_offs: &[(u32, Option<&[&str]>)]) -> Scene {
+        let mut scene = TestScene::new(3);
+        for n in 0..4_u8 {
+            scene = scene.disc(&format!("d{n}"), 0.3 * f64::from(n) + 0.2, 0.5, 0.05);
+        }
+        for (at, (capacity, accepts)) in drop_offs.iter().enumerate() {
+            scene = scene.drop_off(&format!("t{at}"), Some(*capacity), *accepts);
+        }
+        scene.build("d0")
+    }
+
+    fn takes(scene: &Scene, order: &[usize]) -> Vec<bool> {
+        let mut drop_offs = DropOffs::new(scene);
+        let taken: Vec<bool> = order.iter().map(|&at| drop_offs.take(ObjectIndex::new(at))).collect();
+        for (at, held) in drop_offs.held.iter().enumerate() {
+            let drop_off = &scene.drop_offs()[at];
+            assert!(drop_off.capacity().is_none_or(|capacity| held.len() as u64 <= capacity));
+            assert!(held.iter().all(|object| drop_off.accepts().is_none_or(|accepted| accepted.contains(object))));
+        }
+        assert_eq!(drop_offs.places().iter().flatten().count(), taken.iter().filter(|taken| **taken).count());
+        taken
+    }
+
+    #[test]
+    fn an_object_moves_on_where_that_makes_room() {
+        let scene = scene(&[(1, None), (2, Some(&["d0", "d1"])), (1, Some(&["d1", "d2"]))]);
+        // d0 goes to t0 and moves on for d3; d1 goes to t1 and moves on for nobody.
+        assert_eq!(takes(&scene, &[0, 1, 3, 2]), [true; 4]);
+    }
+
+    #[test]
+    fn what_has_no_room_is_refused_and_others_are_still_taken() {
+        let scene = scene(&[(1, Some(&["d0", "d1"])), (1, Some(&["d2"]))]);
+        assert_eq!(takes(&scene, &[0, 1, 3, 2]), [true, false, false, true]);
+    }
+}

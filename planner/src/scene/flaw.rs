@@ -1,0 +1,249 @@
+//! What can be wrong with a scene, or look wrong.
+
+use core::fmt;
+
+use super::Rectangle;
+use super::limits::MAX_ID_LENGTH;
+
+/// The kind of a fault or warning. Warnings are: an overlap within the tolerance, fingers that overlap, a disc that
+/// hangs over the table's edge, a number that looks like a slip of its unit, an object too wide for the hand, a drop-off that
+/// accepts what is not there.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Flaw {
+    /// A number outside its range, bounds included.
+    #[error("{value} is not between {min} and {max}")]
+    OutOfRange {
+        /// The number given.
+        value: f64,
+        /// The least admitted value.
+        min: f64,
+        /// The greatest admitted value.
+        max: f64,
+    },
+    /// A yaw tolerance above its range.
+    #[error("{value} is not between 0 and {max}: degrees instead of radians?")]
+    AngleOutOfRange {
+        /// The number given.
+        value: f64,
+        /// The greatest admitted value, rad.
+        max: f64,
+    },
+    /// A count that is not a whole number.
+    #[error("{0} is not a whole number")]
+    NotWhole(f64),
+    /// A rectangle whose upper bound is not above its lower bound.
+    #[error("the upper bound {max} is not above the lower bound {min}")]
+    EmptyRectangle {
+        /// The lower bound given, m.
+        min: f64,
+        /// The upper bound given, m.
+        max: f64,
+    },
+    /// An id of no or too many characters.
+    #[error("an id has 1 to {max} characters, this one has {length}")]
+    IdLength {
+        /// Characters given.
+        length: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// An id that an earlier object has.
+    #[error("'{id}' is already the id of object {first}")]
+    DuplicateId {
+        /// The id.
+        id: String,
+        /// The position of the earlier object.
+        first: usize,
+    },
+    /// More objects than the limit.
+    #[error("{count} objects are more than the limit of {max}")]
+    TooManyObjects {
+        /// Objects given.
+        count: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// A drop-off's id that an earlier one has.
+    #[error("'{id}' is already the id of drop-off {first}")]
+    DuplicateDropOff {
+        /// The id.
+        id: String,
+        /// The position of the earlier drop-off.
+        first: usize,
+    },
+    /// More drop-offs than the limit.
+    #[error("{count} drop-offs are more than the limit of {max}")]
+    TooManyDropOffs {
+        /// Drop-offs given.
+        count: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// What is taken away needs a drop-off.
+    #[error("the field 'drop_offs' is required where objects are taken away")]
+    NoDropOff,
+    /// Only what a drop-off accepts may move, and there is none.
+    #[error("with 'drop_off' nothing can be moved, since there is no drop-off")]
+    NothingAccepted,
+    /// A drop-off accepts what is not there.
+    #[error("there is no object '{0}'")]
+    UnknownObject(String),
+    /// A list of the goal without ids.
+    #[error("a list of objects that are wanted has at least one id")]
+    NothingWanted,
+    /// An id of the goal's list that an earlier one has.
+    #[error("'{id}' is named before, at {first}")]
+    NamedTwice {
+        /// The id.
+        id: String,
+        /// The earlier position in the list.
+        first: usize,
+    },
+    /// An object is too wide for the hand. As the goal it is a fault, elsewhere a warning.
+    #[error("'{id}' is {width:.6} m wide, more than the greatest opening {max_opening} m")]
+    TooWide {
+        /// The object's id.
+        id: String,
+        /// Its width, m.
+        width: f64,
+        /// The hand's greatest opening, m.
+        max_opening: f64,
+    },
+    /// No drop-off accepts an object that is to be taken away.
+    #[error("no drop-off accepts '{0}'")]
+    NotAccepted(String),
+    /// The hand always opens all the way, and that is not stated.
+    #[error("the field 'max_opening' is required where 'opening' is 'full'")]
+    NoMaxOpening,
+    /// The target is no object's id.
+    #[error("there is no object '{0}'")]
+    UnknownTarget(String),
+    /// The target can't be moved.
+    #[error("the target '{0}' is fixed")]
+    FixedTarget(String),
+    /// An object of the goal's list can't be moved.
+    #[error("'{0}' is fixed")]
+    FixedMember(String),
+    /// The centre is not on the table.
+    #[error("the centre ({x}, {y}) is not on the table ({top}){likely}")]
+    OffTable {
+        /// Centre, m.
+        x: f64,
+        /// Centre, m.
+        y: f64,
+        /// The table top.
+        top: Rectangle,
+        /// The likely cause.
+        likely: Likely,
+    },
+    /// Two discs overlap.
+    #[error("overlaps '{other}' by {depth:.6} m (tolerance {tolerance} m){likely}")]
+    Overlap {
+        /// The other object's id.
+        other: String,
+        /// How deep, m.
+        depth: f64,
+        /// The deepest overlap that counts as perception noise, m.
+        tolerance: f64,
+        /// The likely cause.
+        likely: Likely,
+    },
+    /// More obstacles within reach of one grasp than the limit.
+    #[error("a grasp of '{id}' has more than {max} obstacles in reach")]
+    TooManyNeighbours {
+        /// The object that is grasped.
+        id: String,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// A disc hangs over the table's edge by more than a third of its radius.
+    #[error("hangs over the table's edge by {overhang:.6} m, more than a third of its radius {radius} m")]
+    HangsOverTable {
+        /// How far, m.
+        overhang: f64,
+        /// r, m.
+        radius: f64,
+    },
+    /// With this yaw tolerance one obstacle in reach blocks every yaw.
+    #[error(
+        "a yaw tolerance of {tolerance} rad is π/{fingers} or more, so one obstacle in reach blocks every yaw: degrees \
+         instead of radians?"
+    )]
+    WideYawTolerance {
+        /// The tolerance, rad.
+        tolerance: f64,
+        /// k.
+        fingers: u32,
+    },
+    /// A length out of proportion to the others of the scene.
+    #[error("{length} m is out of all proportion to {yardstick}: millimetres instead of metres?")]
+    OutOfProportion {
+        /// The length, m.
+        length: f64,
+        /// The length that it was compared with.
+        yardstick: Yardstick,
+    },
+    /// Neighbouring fingers overlap at the edge of the object.
+    #[error("fingers of width {finger_width} m overlap round '{id}' of radius {radius} m")]
+    FingersOverlap {
+        /// The object that is grasped.
+        id: String,
+        /// w, m.
+        finger_width: f64,
+        /// r, m.
+        radius: f64,
+    },
+}
+
+impl Flaw {
+    /// No object has this id. A text that is too long to be an id is not repeated.
+    pub(super) fn unknown_id(id: &str, known: impl FnOnce(String) -> Self) -> Self {
+        let length = id.chars().count();
+        if length > MAX_ID_LENGTH { Self::IdLength { length, max: MAX_ID_LENGTH } } else { known(id.to_owned()) }
+    }
+}
+
+/// The likely cause of a fault, as the end of its sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Likely {
+    /// No single cause is likely.
+    Open,
+    /// The objects are given in another unit, or in another frame than the table.
+    FrameOrUnit,
+    /// Two detections of one object.
+    SeenTwice,
+    /// The lengths are no metres, or two detections of one object.
+    UnitOrSeenTwice,
+}
+
+impl fmt::Display for Likely {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Open => "",
+            Self::FrameOrUnit => ": another frame, or millimetres instead of metres?",
+            Self::SeenTwice => ": one object seen twice?",
+            Self::UnitOrSeenTwice => ": millimetres instead of metres, or one object seen twice?",
+        })
+    }
+}
+
+/// A length that another one is compared with, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Yardstick {
+    /// The largest radius of an object.
+    LargestRadius(f64),
+    /// The smallest radius of an object.
+    SmallestRadius(f64),
+    /// The sides of the table.
+    Table(f64, f64),
+}
+
+impl fmt::Display for Yardstick {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LargestRadius(radius) => write!(f, "the largest radius, {radius} m"),
+            Self::SmallestRadius(radius) => write!(f, "the smallest radius, {radius} m"),
+            Self::Table(x, y) => write!(f, "the table of {x:.3} m by {y:.3} m"),
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Checks of what is wanted: that it is there, can be grasped, and can be taken away.
+
+use std::collections::HashMap;
+
+use super::draft::ObjectDraft;
+use super::drop_off::DropOff;
+use super::fault::{Findings, Place};
+use super::flaw::Flaw;
+use super::goal::{Goal, GoalDraft};
+use super::gripper::Gripper;
+use super::object::{Object, ObjectIndex};
+
+/// The goal of a draft, as far as its ids name objects that are not fixed; `None` if one does not, or if an object or an id of
+/// the draft could not be read.
+pub(super) fn named(
+    draft: &GoalDraft,
+    ids: &HashMap<&str, usize>,
+    objects: &[ObjectDraft],
+    faults: &mut Findings,
+) -> Option<Goal> {
+    let mut find = |id: &str, place, fixed: fn(String) -> Flaw| match ids.get(id) {
+        Some(&at) if objects[at].fixed => {
+            faults.add(place, fixed(id.to_owned()));
+            None
+        }
+        Some(&at) => Some(ObjectIndex::new(at)),
+        None => {
+            // It may be an object whose id could not be read.
+            if objects.iter().all(|object| object.id.is_some()) {
+                faults.add(place, Flaw::unknown_id(id, Flaw::UnknownTarget));
+            }
+            None
+        }
+    };
+    match draft {
+        GoalDraft::Target(id) => find(id, Place::Target, Flaw::FixedTarget).map(Goal::Target),
+        GoalDraft::Clear => Some(Goal::Clear),
+        GoalDraft::AnyOf(list) | GoalDraft::AllOf(list) => {
+            let (field, to_goal): (_, fn(Vec<ObjectIndex>) -> Goal) = match draft {
+                GoalDraft::AllOf(_) => ("all_of", Goal::AllOf),
+                _ => ("any_of", Goal::AnyOf),
+            };
+            let mut found = Vec::with_capacity(list.len());
+            for (at, id) in list.iter().enumerate() {
+                let id = id.as_deref()?;
+                found.push(find(id, Place::GoalMember(field, at), Flaw::FixedMember));
+            }
+            if list.is_empty() {
+                faults.add(Place::Goal(field), Flaw::NothingWanted);
+                return None;
+            }
+            let mut first = HashMap::new();
+            for (at, object) in found.iter().enumerate() {
+                let Some(object) = object else { continue };
+                if let Some(&earlier) = first.get(object) {
+                    let id = list[at].clone().unwrap_or_default();
+                    faults.add(Place::GoalMember(field, at), Flaw::NamedTwice { id, first: earlier });
+                } else {
+                    first.insert(*object, at);
+                }
+            }
+            found.into_iter().collect::<Option<_>>().map(to_goal)
+        }
+    }
+}
+
+/// The goal without members of which one suffices and that are too wide. Reports what can't be grasped, or not taken away.
+pub(super) fn attainable(
+    goal: Goal,
+    objects: &[Object],
+    gripper: &Gripper,
+    drop_offs: &[DropOff],
+    faults: &mut Findings,
+) -> Goal {
+    let wide = |object: ObjectIndex| objects[object.get()].wider_than(gripper);
+    match goal {
+        Goal::Target(target) => {
+            faults.extend(Place::Target, wide(target));
+            goal
+        }
+        Goal::AnyOf(members) => {
+            let mut fitting: Vec<_> = members.iter().copied().filter(|&member| wide(member).is_none()).collect();
+            if fitting.is_empty() {
+                faults.extend(Place::Goal("any_of"), wide(members[0]));
+            }
+            fitting.sort_unstable();
+            Goal::AnyOf(fitting)
+        }
+        Goal::AllOf(mut members) => {
+            if drop_offs.is_empty() {
+                faults.add(Place::DropOffs, Flaw::NoDropOff);
+            }
+            for (at, &member) in members.iter().enumerate() {
+                let (place, object) = (Place::GoalMember("all_of", at), &objects[member.get()]);
+                faults.extend(place, wide(member));
+                if !drop_offs.is_empty() && !object.accepted {
+                    faults.add(place, Flaw::NotAccepted(object.id.clone()));
+                }
+            }
+            members.sort_unstable();
+            Goal::AllOf(members)
+        }
+        Goal::Clear => {
+            if drop_offs.is_empty() {
+                faults.add(Place::DropOffs, Flaw::NoDropOff);
+            }
+            goal
+        }
+    }
+}
