@@ -13,6 +13,7 @@ mod table1;
 mod table2;
 mod timed_search;
 mod varied;
+mod wanting;
 mod workers;
 
 use core::time::Duration;
@@ -27,6 +28,7 @@ pub use table1::{Table1Column, table1};
 pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};
 pub use timed_search::SearchEnding;
 pub use varied::varied;
+pub use wanting::wanting;
 
 /// The settings of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -28,12 +28,12 @@ pub fn varied(seed: u64) -> SceneDraft {
     draft
 }
 
-fn chance(random: &mut ChaCha8Rng, probability: f64) -> bool {
+pub(super) fn chance(random: &mut ChaCha8Rng, probability: f64) -> bool {
     random.random::<f64>() < probability
 }
 
 /// A random integer from `least` to `greatest`.
-fn whole(random: &mut ChaCha8Rng, least: u32, greatest: u32) -> u32 {
+pub(super) fn whole(random: &mut ChaCha8Rng, least: u32, greatest: u32) -> u32 {
     let count = greatest - least + 1;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the count")]
     let step = (random.random::<f64>() * f64::from(count)) as u32;

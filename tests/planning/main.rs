@@ -5,6 +5,7 @@
 mod bases;
 mod check;
 mod generated;
+mod goals;
 mod noise;
 mod paper;
 mod quiet;

@@ -5,7 +5,8 @@ use singulate_planner::budget::Budget;
 use singulate_planner::check::{Checker, FaultCode, Report};
 use singulate_planner::cost::Cost;
 use singulate_planner::scene::{
-    GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
+    Destination, DropOffDraft, GoalDraft, GripperDraft, ObjectDraft, Opening, RectangleDraft, Scene, SceneDraft,
+    SceneLimits, ShapeDraft,
 };
 use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verdict};
 
@@ -81,8 +82,29 @@ impl Builder {
         self
     }
 
-    pub(crate) fn build(mut self, target: &str) -> Scene {
-        self.0.goal = Some(GoalDraft::Target(target.into()));
+    pub(crate) fn drop_off(mut self, id: &str, capacity: Option<u32>, accepts: Option<&[&str]>) -> Self {
+        let accepts = accepts.map(|ids| ids.iter().map(|id| Some((*id).to_owned())).collect());
+        let drop_off = DropOffDraft { id: Some(id.into()), capacity: capacity.map(f64::from), accepts };
+        self.0.drop_offs.get_or_insert_default().push(drop_off);
+        self
+    }
+
+    pub(crate) fn destination(mut self, destination: Destination) -> Self {
+        self.0.destination = Some(destination);
+        self
+    }
+
+    pub(crate) fn opening(mut self, max_opening: f64, opening: Opening) -> Self {
+        self.0.gripper = GripperDraft { max_opening: Some(max_opening), opening: Some(opening), ..self.0.gripper };
+        self
+    }
+
+    pub(crate) fn build(self, target: &str) -> Scene {
+        self.wanting(GoalDraft::Target(target.into()))
+    }
+
+    pub(crate) fn wanting(mut self, goal: GoalDraft) -> Scene {
+        self.0.goal = Some(goal);
         let limits = SceneLimits { max_objects: 20_000, ..SceneLimits::default() };
         Scene::new(self.0, &limits).expect("a scene that holds").0
     }

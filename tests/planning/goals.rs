@@ -1,0 +1,6 @@
+//! Goals, drop-offs and openings against exhaustive search on small scenes.
+
+mod clear;
+mod exhaustive;
+mod named;
+mod small;
