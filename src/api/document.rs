@@ -22,7 +22,8 @@ use crate::wire::{Problem, ProblemKind};
 #[openapi(
     info(
         title = "singulate",
-        description = "Plans the fewest relocations that free an object on a crowded table, with proof.\n\n\
+        description = "Plans the fewest relocations that free an object on a crowded table, with proof; takes objects away to \
+            drop-offs, and clears a table.\n\n\
             Lengths are metres and angles are radians. Fields that end in `_ms` are milliseconds. A verdict is an answer, \
             not an error. Every error is a problem document (RFC 9457). It lists all faults of the body at once, each with \
             its JSON pointer. An unknown path is a 404, another method on a known path a 405 with `Allow`. A client must \

@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::{Value, json};
+use utoipa::openapi::example::ExampleBuilder;
 use utoipa::openapi::path::Operation;
-use utoipa::openapi::{OpenApi, RefOr, Schema};
+use utoipa::openapi::{Content, OpenApi, RefOr, Schema};
 
 use crate::computation::Engine;
 use crate::wire::{
-    AnswerBody, KnowledgeBody, RequestLimits, StatisticsBody, SurveyBody, VerificationBody, queued_job, read_scene,
-    read_verify,
+    AnswerBody, KnowledgeBody, PlanRequest, RequestLimits, StatisticsBody, SurveyBody, VerificationBody, queued_job,
+    read_scene, read_verify,
 };
 use singulate_planner::budget::Budget;
 use singulate_planner::knowledge::known;
@@ -21,6 +22,9 @@ use singulate_planner::search::SILENT;
 pub(super) fn add(document: &mut OpenApi) {
     let schemas = &mut document.components.get_or_insert_default().schemas;
     let scene = scene(schemas);
+    let clearing = clearing(&scene);
+    let plans = [("one_object", "Free one object", &scene), ("whole_table", "Clear the table", &clearing)]
+        .map(|(name, summary, scene)| (name, summary, scene.clone(), planned(scene)));
     let Answers { plan, survey, knowledge, verify, verification } = Answers::to(&scene);
     let queued = queued_job();
     let end = json!({"finished_at": ENDED, "expires_at": FORGOTTEN, "queue_position": null});
@@ -46,11 +50,17 @@ pub(super) fn add(document: &mut OpenApi) {
             object.example = Some(example);
         }
     }
+    if let Some(plan) = document.paths.paths.get_mut("/v1/plans").and_then(|item| item.post.as_mut()) {
+        for (name, summary, scene, answer) in plans {
+            add_named(requested(plan), (name, summary), scene);
+            add_named(answered(plan, "200"), (name, summary), answer);
+        }
+    }
     // These answer with a job without a result.
     for (path, job) in [("/v1/jobs", queued), ("/v1/jobs/{id}/cancel", cancelled)] {
         let operation = document.paths.paths.get_mut(path).and_then(|item| item.post.as_mut());
-        if let Some(content) = operation.and_then(accepted) {
-            *content = Some(job);
+        if let Some(content) = operation.and_then(|operation| answered(operation, "202")) {
+            content.example = Some(job);
         }
     }
 }
@@ -73,11 +83,8 @@ struct Answers {
 impl Answers {
     fn to(scene: &Value) -> Self {
         let (engine, budget, limits) = (Engine::default(), Budget::unlimited(), RequestLimits::default());
-        let request = read_scene(scene.to_string().as_bytes(), &limits).expect("the example is a scene");
-        let judged = (engine.plan)(&request, &budget, SILENT);
-        let judged = judged.expect("the example is planned");
-        let statistics = StatisticsBody { knowledge_ms: 0.04, search_ms: 0.01, placement_ms: 0.2, check_ms: 0.02 };
-        let plan = value(&AnswerBody { statistics, ..AnswerBody::new(&request, &judged) });
+        let request = requested_plan(scene);
+        let plan = planned(scene);
         let survey = (engine.survey)(&request.scene, &budget).expect("the example is surveyed");
         let known = known(&request.scene, request.methods.grasp_model.model(), &budget).expect("the example is small");
         let verify = json!({"scene": scene, "plan": plan});
@@ -91,6 +98,18 @@ impl Answers {
             verification: value(&VerificationBody::new(&report)),
         }
     }
+}
+
+fn requested_plan(scene: &Value) -> PlanRequest {
+    read_scene(scene.to_string().as_bytes(), &RequestLimits::default()).expect("the example is a scene")
+}
+
+/// The answer to a planning request.
+fn planned(scene: &Value) -> Value {
+    let request = requested_plan(scene);
+    let judged = (Engine::default().plan)(&request, &Budget::unlimited(), SILENT).expect("the example is planned");
+    let statistics = StatisticsBody { knowledge_ms: 0.04, search_ms: 0.01, placement_ms: 0.2, check_ms: 0.02 };
+    value(&AnswerBody { statistics, ..AnswerBody::new(&request, &judged) })
 }
 
 fn value(body: &impl Serialize) -> Value {
@@ -112,9 +131,35 @@ fn with(object: &Value, fields: Value) -> Value {
     object
 }
 
-/// The example of an operation's 202 answer.
-fn accepted(operation: &mut Operation) -> Option<&mut Option<Value>> {
-    let RefOr::T(response) = operation.responses.responses.get_mut("202")? else { return None };
+/// The same scene, to be cleared: the cup goes to its own place, and there is no room for all plates.
+fn clearing(scene: &Value) -> Value {
+    let plates = json!({"id": "tray", "capacity": 2, "accepts": ["plate-1", "plate-2", "plate-3"]});
+    let mut clearing =
+        with(scene, json!({"goal": {"clear": true}, "drop_offs": [plates, {"id": "sink", "accepts": ["cup"]}]}));
+    if let Value::Object(fields) = &mut clearing {
+        fields.remove("target");
+    }
+    clearing
+}
+
+/// The JSON that an operation takes.
+fn requested(operation: &mut Operation) -> Option<&mut Content> {
+    let RefOr::T(body) = operation.request_body.as_mut()? else { return None };
+    let RefOr::T(content) = body.content.get_mut("application/json")? else { return None };
+    Some(content)
+}
+
+/// The JSON that an operation answers with this status.
+fn answered<'a>(operation: &'a mut Operation, status: &str) -> Option<&'a mut Content> {
+    let RefOr::T(response) = operation.responses.responses.get_mut(status)? else { return None };
     let RefOr::T(content) = response.content.get_mut("application/json")? else { return None };
-    Some(&mut content.example)
+    Some(content)
+}
+
+/// Gives a body one of several examples.
+fn add_named(content: Option<&mut Content>, (name, summary): (&str, &str), value: Value) {
+    if let Some(content) = content {
+        let example = ExampleBuilder::new().summary(summary).value(Some(value)).build();
+        content.examples.insert(name.to_owned(), example.into());
+    }
 }

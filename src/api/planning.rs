@@ -42,8 +42,9 @@ impl PlanningCalls {
 /// Plan now
 ///
 /// Says which objects to move, in which order and to where, so that the gripper can grasp the target. Or proves that no
-/// sequence of pick-and-place frees it. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`. A
-/// scene that is too large to be read within it gets `timed_out`, even if it is faulty.
+/// sequence of steps frees it. With a `goal` it frees the cheapest of several, takes several away to drop-offs, or clears
+/// the table. Every verdict is a 200. Time spent waiting counts towards `time_limit_ms`. A scene that is too large to be
+/// read within it gets `timed_out`, even if it is faulty; to be cleared it is a 503.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -88,11 +89,12 @@ pub(super) async fn verify(
     calls.answer(&caller, request, &[Form::Json], |_| Verification).await
 }
 
-/// Survey every movable object as the target
+/// Survey every object as the target
 ///
-/// Says how many relocations each object would need, without looking for places. The scene's own `target` is required,
-/// but does not change the answer. Of the settings only the time limit does. `time_limit_ms` is for the whole call:
-/// objects that are undecided by then are `timed_out`.
+/// Says how many relocations each object would need, without looking for places. Objects that are fixed or too wide are
+/// left out. The scene's own `target` or `goal` is required, but does not change the answer. Of the settings only
+/// `destination` and the time limit do. `time_limit_ms` is for the whole call: objects that are undecided by then are
+/// `timed_out`.
 #[utoipa::path(
     post,
     path = "/v1/survey",
@@ -100,7 +102,7 @@ pub(super) async fn verify(
     tag = "planning",
     request_body(content = SceneBody, content_type = "application/json", description = "The scene."),
     responses(
-        (status = 200, description = "The verdict and the bound of each movable object.",
+        (status = 200, description = "The verdict and the bound of each object.",
          body = SurveyBody, content_type = "application/json"),
         RequestProblems,
     )
@@ -116,8 +118,8 @@ pub(super) async fn survey(
 /// Shadows and options of every object
 ///
 /// Says which obstacle blocks which yaws, and which sets of obstacles would have to go, by the scene's `grasp_model`.
-/// With `sector` the paper's polar histogram comes too. The scene's `target`, `search`, `placement` and `objective` do
-/// not change the answer. A call that is not done within `time_limit_ms` is a 503.
+/// With `sector` the paper's polar histogram comes too. The scene's `target` or `goal`, `search`, `placement` and
+/// `objective` do not change the answer. A call that is not done within `time_limit_ms` is a 503.
 #[utoipa::path(
     post,
     path = "/v1/knowledge",

@@ -25,8 +25,8 @@ pub struct AnswerBody<'a> {
     /// The request's own `scene_id`.
     #[schema(required = true, example = "cell-4/17")]
     pub scene_id: Option<&'a str>,
-    /// The id of the object that is grasped in the end. Null where objects are taken away, and where none of several
-    /// candidates is chosen.
+    /// The id of the object that is grasped in the end. Null for `all_of` and `clear`; and for `any_of` where there is no plan,
+    /// unless `needed` frees one of the candidates.
     #[schema(required = true, example = "plate-1")]
     pub target: Option<&'a str>,
     /// The plan, in order of execution. Empty if there is no plan or no relocation is needed.
@@ -35,7 +35,7 @@ pub struct AnswerBody<'a> {
         "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
     pub relocations: Vec<StepBody<'a>>,
-    /// The grasp of the target after all relocations. Null if there is no plan, and where objects are taken away.
+    /// The grasp of the target after all relocations. Null if there is no plan, and for `all_of` and `clear`.
     #[schema(required = true)]
     pub target_grasp: Option<GraspBody>,
     /// The number of steps. Null if there is no plan.
@@ -65,11 +65,11 @@ pub struct AnswerBody<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stuck: Option<Option<DeadlockBody<'a>>>,
     /// Only there for a clearing: the ids of the objects that stay, those apart that the request calls fixed.
-    #[schema(example = json!(["plate-3"]))]
+    #[schema(value_type = Vec<String>, required = false, example = json!(["plate-3"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<&'a [String]>,
     /// Only there for a clearing: true if no order takes more objects away. False if that is not known.
-    #[schema(example = true)]
+    #[schema(value_type = bool, required = false, example = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven: Option<bool>,
     /// Warnings about the scene. With a method of the paper also the faults that our own methods find in the answer.
@@ -160,13 +160,13 @@ impl<'a> AnswerBody<'a> {
         }
     }
 
-    /// The answer to a request that was too large to be read in its time: `timed_out`. `None` if even the target is
-    /// unknown.
+    /// The answer to a request that was too large to be read in its time: `timed_out`. `None` if even the kind of goal is
+    /// unknown, and for a clearing: what is left can't be named.
     pub fn unread(glance: &'a Glance) -> Option<Self> {
         Some(Self {
             verdict: Some(Verdict::TimedOut.as_str()),
             scene_id: glance.scene_id.as_deref(),
-            target: Some(glance.target.as_deref()?),
+            target: glance.target.as_ref()?.id(),
             relocations: Vec::new(),
             target_grasp: None,
             cost: None,

@@ -16,7 +16,7 @@ pub struct DropOffBody {
     /// The caller's name for it, unique among the drop-offs.
     #[schema(min_length = 1, max_length = 128, example = "tray")]
     pub id: String,
-    /// How many more objects it takes. Default: any number.
+    /// How many more objects it takes. Default: unlimited.
     #[schema(minimum = 1, maximum = 1000000000, example = 4)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity: Option<u32>,

@@ -9,21 +9,24 @@ use singulate_planner::scene::{Goal, GoalDraft, ObjectIndex, Scene};
 
 const GOAL: FieldNames = FieldNames::of(&["any_of", "all_of", "clear"]);
 
-/// What is wanted, where it is not to grasp one object. Exactly one field is there.
+/// What is wanted, where it is not one object. Exactly one field is there.
 #[derive(Debug, Clone, Default, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-#[schema(example = json!({"any_of": ["plate-1", "plate-2"]}))]
+#[schema(min_properties = 1, max_properties = 1, example = json!({"any_of": ["plate-1", "plate-2"]}))]
 pub struct GoalBody {
-    /// The ids of objects of which one is to be grasped: the one that takes the fewest steps.
-    #[schema(min_items = 1, max_items = 10000, example = json!(["plate-1", "plate-2"]))]
+    /// The ids of objects of which one is to be grasped: the one that takes the fewest steps. Those that are too wide are passed
+    /// over.
+    #[schema(value_type = Vec<String>, required = false, min_items = 1, max_items = 10000,
+        example = json!(["plate-1", "plate-2"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub any_of: Option<Vec<String>>,
-    /// The ids of objects that are all to be taken away to drop-offs. Others move only if they must.
-    #[schema(min_items = 1, max_items = 10000, example = json!(["plate-1", "plate-2"]))]
+    /// The ids of objects that are all to be taken away to drop-offs. Other objects move only if they must.
+    #[schema(value_type = Vec<String>, required = false, min_items = 1, max_items = 10000,
+        example = json!(["plate-1", "plate-2"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub all_of: Option<Vec<String>>,
     /// Always true: all that can go is to be taken away to drop-offs.
-    #[schema(example = true)]
+    #[schema(value_type = bool, required = false, example = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clear: Option<bool>,
 }

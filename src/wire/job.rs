@@ -35,10 +35,10 @@ pub struct JobSceneBody {
         {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
     ]))]
     pub objects: Vec<ObjectBody>,
-    /// The id of the object to grasp. It must not be fixed.
+    /// The id of the object to grasp. It must not be fixed. Either this or `goal` is required.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
     pub target: Option<String>,
-    /// What is wanted, in place of a target.
+    /// What is wanted, where it is not one object. Either this or `target` is required.
     pub goal: Option<GoalBody>,
     /// Places off the table, to which objects can be taken away. Default: none.
     #[schema(max_items = 1000, example = json!([{"id": "tray", "capacity": 4, "accepts": ["plate-1"]}]))]
@@ -132,14 +132,14 @@ pub struct JobBody {
     /// The job's position in the queue, counted from 1. Null unless it is queued.
     #[schema(required = true, value_type = Option<usize>, example = 1)]
     pub queue_position: Option<u64>,
-    /// The SHA-256 of the scene without `scene_id` and settings, hexadecimal. It does not depend on how the JSON is
-    /// written.
+    /// The SHA-256 of the scene without `scene_id` and settings, hexadecimal. A `destination` that is not the default counts.
+    /// It does not depend on how the JSON is written.
     #[schema(example = "f111313c9ecf7ea9b764844cd8466b78c8bfb0303277cfdc48e5ec969a5b84e0")]
     pub scene_sha256: String,
     /// The version of the service that ended the job. Before its end: the version that answers.
     #[schema(example = "0.1.0")]
     pub version: String,
-    /// The best set of relocations so far. Null if none is known.
+    /// The best set of relocations so far. Null if none is known, and for a clearing.
     #[schema(required = true)]
     pub incumbent: Option<IncumbentBody>,
     /// The answer. Null until there is one. Always null in lists: fetch the job itself.

@@ -12,7 +12,7 @@ use super::object::ObjectBody;
 use super::settings::{DestinationWord, SettingsBody};
 use singulate_planner::scene::{Gripper, Opening, Rectangle, Scene};
 
-/// A scene and how to plan for it: the body of a planning request. One of `target` and `goal` is there.
+/// A scene and how to plan for it: the body of a planning request.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({
@@ -44,11 +44,11 @@ pub struct SceneBody {
         {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
     ]))]
     pub objects: Vec<ObjectBody>,
-    /// The id of the object to grasp. It must not be fixed.
+    /// The id of the object to grasp. It must not be fixed. Either this or `goal` is required.
     #[schema(min_length = 1, max_length = 128, example = "plate-1")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<String>,
-    /// What is wanted, in place of a target.
+    /// What is wanted, where it is not one object. Either this or `target` is required.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal: Option<GoalBody>,
     /// Places off the table, to which objects can be taken away. Default: none.
@@ -122,7 +122,7 @@ pub struct GripperBody {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_tolerance: Option<f64>,
     /// The distance between the inner faces of two open jaws, m; for more fingers twice their distance from the gripper's axis.
-    /// A wider object can't be grasped. Default: no limit.
+    /// A wider object can't be grasped. Default: unlimited.
     #[schema(minimum = 0.000001, maximum = 1000, example = 0.14)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_opening: Option<f64>,

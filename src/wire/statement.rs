@@ -44,12 +44,12 @@ pub struct VerifyBody {
 #[derive(Debug, Clone, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanBody {
-    /// The verdict. If it is absent, `target_grasp` is required.
+    /// The verdict. If it is absent, `target_grasp` is required, unless the goal is to take objects away.
     pub verdict: Option<VerdictWord>,
     /// Not checked.
     #[schema(example = "cell-4/17")]
     pub scene_id: Option<String>,
-    /// The target. It must be the scene's own, or one of its candidates.
+    /// The target. It must be the scene's own. With `any_of` it is the candidate that is grasped, and `target_grasp` needs it.
     #[schema(example = "plate-1")]
     pub target: Option<String>,
     /// The steps, in order.
@@ -60,13 +60,13 @@ pub struct PlanBody {
     pub relocations: Vec<StatedStep>,
     /// The grasp of the target after all relocations.
     pub target_grasp: Option<StatedGraspBody>,
-    /// The number of relocations.
+    /// The number of steps.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
     pub cost: Option<u32>,
-    /// The claimed bound: no plan has fewer relocations.
+    /// The claimed bound: no plan has fewer steps.
     #[schema(minimum = 0, maximum = 1000000000, example = 1)]
     pub lower_bound: Option<u32>,
-    /// The claim that no plan has fewer relocations than this one.
+    /// The claim that no plan has fewer steps than this one.
     #[schema(example = true)]
     pub optimal: Option<bool>,
     /// The proof of the bound: every plan moves at least one object of each set.
@@ -74,12 +74,12 @@ pub struct PlanBody {
     pub landmarks: Option<Vec<Vec<String>>>,
     /// The proof of a deadlock.
     pub deadlock: Option<StatedDeadlock>,
-    /// If there is no plan: objects that would free the target, moved in this order, if there were places for them.
+    /// If there is no plan: objects that would reach the goal, moved in this order, if there were places for them.
     #[schema(example = json!(["plate-2"]))]
     pub needed: Option<Vec<String>>,
     /// Of a clearing: the lock of what can never be taken away.
     pub stuck: Option<StatedDeadlock>,
-    /// Of a clearing: the ids of the objects that stay.
+    /// Of a clearing: the ids of the objects that stay, those apart that the scene calls fixed.
     #[schema(example = json!(["plate-3"]))]
     pub left: Option<Vec<String>>,
     /// Of a clearing: the claim that no order takes more away.

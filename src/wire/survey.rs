@@ -7,7 +7,7 @@ use singulate_planner::cost::Cost;
 use singulate_planner::plan::{SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::Scene;
 
-/// Every object that can be grasped as the target. No places are searched for.
+/// Each object that can be grasped at all, as the target. No places are searched for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct SurveyBody {
     /// The objects that are neither fixed nor too wide, in the order of the request.

@@ -7,6 +7,7 @@ mod requests;
 mod slips;
 mod typed;
 mod walk;
+mod wanted;
 
 use serde_json::{Value, json};
 

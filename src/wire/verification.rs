@@ -18,8 +18,8 @@ pub struct VerificationBody {
         "see": "docs/errors.md#plan-unknown_object"
     }]))]
     pub faults: Vec<FaultBody>,
-    /// The first step with a fault, counted from 0. The number of steps if it is the final grasp of the target. Null if no step
-    /// has a fault.
+    /// The first step with a fault, counted from 0. The number of steps if it is the final grasp of the target, or an object that
+    /// should have been taken away. Null if no step has a fault.
     #[schema(required = true, example = 0)]
     pub first_failing_step: Option<usize>,
     /// True if a step has a fault, the final grasp included, or if time ran out before all of them were replayed. False if all
@@ -34,7 +34,7 @@ pub struct FaultBody {
     /// The kind of fault, a word for programs. `interrupted` means that time ran out before everything was checked.
     #[schema(example = "unknown_object")]
     pub code: &'static str,
-    /// The position of the relocation, counted from 0. Null for the answer as a whole.
+    /// The position of the step, counted from 0. Null for the answer as a whole.
     #[schema(required = true, example = 0)]
     pub step: Option<usize>,
     /// The id of the object concerned. Null if the fault concerns no single object.

@@ -21,6 +21,12 @@ fn example<'a>(document: &'a Value, described: &'a Value) -> Option<&'a Value> {
     content.get("example").or_else(|| document.pointer(schema)?.get("example"))
 }
 
+/// The examples that have names, where there are several.
+fn named(described: &Value) -> Vec<(&str, &Value)> {
+    let examples = described["content"]["application/json"]["examples"].as_object().into_iter().flatten();
+    examples.map(|(name, example)| (name.as_str(), &example["value"])).collect()
+}
+
 /// Without what differs from run to run.
 fn steady(answer: &Value) -> Value {
     const DIFFERS: [&str; 4] = ["statistics", "id", "created_at", "expires_at"];
@@ -51,6 +57,25 @@ async fn each_example_answer_of_the_document_belongs_to_its_example_request() {
     }
     let all = ["/v1/plans", "/v1/plans/verify", "/v1/survey", "/v1/knowledge", "/v1/jobs", "/v1/jobs/batch"];
     assert_eq!(asked, all);
+}
+
+#[tokio::test]
+async fn each_named_answer_belongs_to_the_request_of_its_name() {
+    let (host, document) = (Host::start().await, document());
+    let plan = &document["paths"]["/v1/plans"]["post"];
+    let (requests, answers) = (named(&plan["requestBody"]), named(&plan["responses"]["200"]));
+    assert_eq!(requests.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["one_object", "whole_table"]);
+    assert_eq!(requests.len(), answers.len());
+    for ((asked, request), (told, answer)) in requests.into_iter().zip(answers) {
+        assert_eq!(asked, told);
+        let schemas = [("SceneBody", request), ("AnswerBody", answer)];
+        for (name, example) in schemas {
+            assert_eq!(faults(&document, &document["components"]["schemas"][name], example, name), [""; 0]);
+        }
+        assert_eq!(steady(&host.post("/v1/plans", request).await.json()), steady(answer), "{asked}");
+    }
+    let cleared = &named(&plan["responses"]["200"])[1].1;
+    assert!(cleared["left"] == json!(["plate-1"]) && cleared["proven"] == true, "an example worth a look: {cleared}");
 }
 
 #[test]

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 use singulate::api::{ServerSettings, openapi_json};
 use singulate::wire::{MAX_SCENE_ID_LENGTH, RequestLimits};
 use singulate_planner::scene::{
-    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_FINDINGS, MAX_ID_LENGTH, SceneLimits,
-    YAW_TOLERANCE_RANGE,
+    CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_DROP_OFFS, MAX_FINDINGS,
+    MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
 };
 
 use crate::host::Host;
@@ -38,7 +38,8 @@ fn the_ranges_of_the_document_are_those_of_the_checks() {
         ("ObjectBody", &["x", "y"], COORDINATE_RANGE),
         ("StatedPoint", &["x", "y"], COORDINATE_RANGE),
         ("ObjectBody", &["radius"], LENGTH_RANGE),
-        ("GripperBody", &["finger_width", "clearance"], LENGTH_RANGE),
+        ("GripperBody", &["finger_width", "clearance", "max_opening"], LENGTH_RANGE),
+        ("DropOffBody", &["capacity"], CAPACITY_RANGE),
         ("GripperBody", &["fingers"], FINGERS_RANGE),
         ("GripperBody", &["margin"], MARGIN_RANGE),
         ("GripperBody", &["yaw_tolerance"], YAW_TOLERANCE_RANGE),
@@ -63,6 +64,11 @@ fn the_lengths_of_the_document_are_those_of_the_checks() {
         ("SceneBody", "target", "maxLength", MAX_ID_LENGTH),
         ("SceneBody", "scene_id", "maxLength", MAX_SCENE_ID_LENGTH),
         ("SceneBody", "objects", "maxItems", SceneLimits::default().max_objects),
+        ("GoalBody", "any_of", "maxItems", SceneLimits::default().max_objects),
+        ("GoalBody", "all_of", "maxItems", SceneLimits::default().max_objects),
+        ("SceneBody", "drop_offs", "maxItems", MAX_DROP_OFFS),
+        ("JobSceneBody", "drop_offs", "maxItems", MAX_DROP_OFFS),
+        ("DropOffBody", "id", "maxLength", MAX_ID_LENGTH),
         ("Problem", "errors", "maxItems", MAX_FINDINGS),
         ("SettingsBody", "time_limit_ms", "maximum", usize::try_from(limits.max_time_limit.as_millis()).unwrap()),
     ];
@@ -99,14 +105,23 @@ fn bodies_of_requests_have_no_other_fields() {
         "RectangleBody",
         "GripperBody",
         "ObjectBody",
+        "GoalBody",
+        "DropOffBody",
         "SettingsBody",
         "VerifyBody",
         "JobSceneBody",
         "BatchBody",
     ];
-    let stated = ["PlanBody", "StatedRelocation", "StatedPoint", "StatedGrasp", "StatedDeadlock"];
+    let stated = ["PlanBody", "StatedPickPlace", "StatedPickDrop", "StatedPoint", "StatedGrasp", "StatedDeadlock"];
     for name in requests.iter().chain(&stated) {
         assert_eq!(schemas[name]["additionalProperties"], json!(false), "{name}");
+    }
+    let steps =
+        [("StepBody", ["PickPlaceBody", "PickDropBody"]), ("StatedStep", ["StatedPickPlace", "StatedPickDrop"])];
+    for (name, kinds) in steps {
+        let choices = schemas[name]["oneOf"].as_array().unwrap().iter().map(|choice| choice["$ref"].clone());
+        let expected = kinds.map(|kind| json!(format!("#/components/schemas/{kind}")));
+        assert_eq!(choices.collect::<Vec<_>>(), expected, "a step is one of these and nothing else");
     }
 }
 

@@ -11,6 +11,7 @@ mod described;
 mod document;
 mod draining;
 mod frozen;
+mod goals;
 mod golden;
 mod hard;
 mod haste;

@@ -36,7 +36,11 @@ pub(crate) fn faults(document: &Value, schema: &Value, value: &Value, at: &str) 
     for (index, item) in value.as_array().into_iter().flatten().enumerate() {
         wrong.extend(faults(document, &schema["items"], item, &format!("{at}/{index}")));
     }
+    let items = (schema["minItems"].as_u64(), schema["maxItems"].as_u64());
+    wrong.extend(value.as_array().and_then(|list| outside(at, "items", list.len(), items)));
     if let Some(object) = value.as_object() {
+        let fields = (schema["minProperties"].as_u64(), schema["maxProperties"].as_u64());
+        wrong.extend(outside(at, "fields", object.len(), fields));
         let required = schema["required"].as_array().into_iter().flatten().map(|name| name.as_str().unwrap());
         wrong.extend(required.filter(|name| !object.contains_key(*name)).map(|name| format!("{at}/{name} is missing")));
         let closed = schema["properties"].is_null() && schema["additionalProperties"].is_null();
@@ -51,6 +55,11 @@ pub(crate) fn faults(document: &Value, schema: &Value, value: &Value, at: &str) 
         }
     }
     wrong
+}
+
+fn outside(at: &str, of: &str, count: usize, (min, max): (Option<u64>, Option<u64>)) -> Option<String> {
+    let inside = min.is_none_or(|min| min <= count as u64) && max.is_none_or(|max| count as u64 <= max);
+    (!inside).then(|| format!("{at} has {count} {of}, not {min:?} to {max:?}"))
 }
 
 fn is(value: &Value, name: &str) -> bool {

@@ -9,12 +9,14 @@ use crate::wire::{RequestLimits, job_request, request, statement, typed};
 
 pub(super) const SOUND: &str = r#"{"scene_id": "cell", "table": {"x_min": 0, "y_min": 0, "x_max": 1.2, "y_max": 0.7,
  "keep_out": [{"x_min": 0, "y_min": 0, "x_max": 0.2, "y_max": 0.1}]},
- "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05, "margin": 0, "yaw_tolerance": 0.01},
+ "gripper": {"fingers": 3, "finger_width": 0.02, "clearance": 0.05, "margin": 0, "yaw_tolerance": 0.01,
+ "max_opening": 0.16, "opening": "fit"},
  "objects": [{"id": "a", "x": 0.3, "y": 0.2, "radius": 0.075}, {"id": "b", "x": 0.6, "y": 0.2, "radius": 0.075, "fixed": true}],
- "target": "a", "settings": {"objective": "short_moves", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
+ "target": "a", "drop_offs": [{"id": "tray", "capacity": 4, "accepts": ["a", "gone"]}, {"id": "bin"}],
+ "settings": {"objective": "short_moves", "destination": "drop_off", "time_limit_ms": 20, "overlap_tolerance": 0.002}}"#;
 
 /// What may stand in place of something else: unusual and sound, or faulty.
-pub(super) const EDITS: [(&str, &str); 49] = [
+pub(super) const EDITS: [(&str, &str); 99] = [
     ("0.3", "-0.0"),
     ("0.3", "-0"),
     ("0.3", "0.30000000000000004441"),
@@ -63,6 +65,56 @@ pub(super) const EDITS: [(&str, &str); 49] = [
     ("20", "20.0"),
     ("20", "0"),
     ("0.002", "0.5"),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"all_of": ["a"]}, "target": null, "#),
+    (r#""target": "a", "#, r#""goal": {"clear": true}, "#),
+    (r#""target": "a", "#, r#""goal": {"clear": false}, "#),
+    (r#""target": "a", "#, r#""goal": {"clear": 1}, "#),
+    (r#""target": "a", "#, r#""goal": {}, "#),
+    (r#""target": "a", "#, r#""goal": null, "#),
+    (r#""target": "a", "#, r#""goal": [["a"]], "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a"], "clear": null}, "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a"], "all_of": ["a"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a"], "any_of": ["a"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a", "a"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": ["a", null]}, "#),
+    (r#""target": "a", "#, r#""goal": {"any_of": []}, "#),
+    (r#""target": "a", "#, r#""goal": {"all_of": ["b", "gone"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"some_of": ["a"]}, "#),
+    (r#""target": "a", "#, r#""goal": {"$serde_json::private::RawValue": "{\"clear\": true}"}, "#),
+    (r#""target": "a", "#, r#""target": "a", "goal": {"clear": true}, "#),
+    (r#""target": "a", "#, r#""target": "a", "goal": null, "#),
+    (r#""capacity": 4"#, r#""capacity": 4.0"#),
+    (r#""capacity": 4"#, r#""capacity": 4.5"#),
+    (r#""capacity": 4"#, r#""capacity": 0"#),
+    (r#""capacity": 4"#, r#""capacity": 1e10"#),
+    (r#""capacity": 4"#, r#""capacity": "4""#),
+    (r#""capacity": 4"#, r#""capacity": null"#),
+    (r#""capacity": 4"#, r#""capacity": 4, "capacity": 5"#),
+    (r#"["a", "gone"]"#, "null"),
+    (r#"["a", "gone"]"#, "[]"),
+    (r#"["a", "gone"]"#, r#"["a", "a"]"#),
+    (r#"["a", "gone"]"#, r#"["a", null]"#),
+    (r#"["a", "gone"]"#, r#""a""#),
+    (r#"{"id": "bin"}"#, r#"{"id": "tray"}"#),
+    (r#"{"id": "bin"}"#, r#"{"id": ""}"#),
+    (r#"{"id": "bin"}"#, "{}"),
+    (r#"{"id": "bin"}"#, r#"["bin", 4, null]"#),
+    (r#"{"id": "bin"}"#, r#"{"id": "bin", "depth": 1}"#),
+    (r#"[{"id": "tray", "capacity": 4, "accepts": ["a", "gone"]}, {"id": "bin"}]"#, "null"),
+    (r#"[{"id": "tray", "capacity": 4, "accepts": ["a", "gone"]}, {"id": "bin"}]"#, "[]"),
+    (r#""max_opening": 0.16"#, r#""max_opening": null"#),
+    (r#""max_opening": 0.16"#, r#""max_opening": 0.1"#),
+    (r#""max_opening": 0.16"#, r#""max_opening": 0"#),
+    (r#""max_opening": 0.16, "opening": "fit""#, r#""opening": "full""#),
+    (r#""fit""#, r#""full""#),
+    (r#""fit""#, r#""wide""#),
+    (r#""fit""#, "null"),
+    (r#""fit""#, r#"{"fit": null}"#),
+    (r#""drop_off""#, r#""table_then_drop_off""#),
+    (r#""drop_off""#, r#""tray""#),
+    (r#""drop_off""#, "null"),
+    (r#""objective""#, r#""search": "lobs", "objective""#),
     ("}}", "}} x"),
 ];
 
@@ -152,6 +204,21 @@ fn valid_bodies_are_read_into_types_directly() {
     let limits = RequestLimits::default();
     let with_settings = with("/settings", json!({"search": "lobs", "placement": "raster", "time_limit_ms": 20.0}));
     for body in [scene(), with_settings, with("/settings", Value::Null), with("/table/keep_out", Value::Null)] {
+        assert!(typed::scene(body.to_string().as_bytes(), &limits).is_some(), "{body}");
+    }
+    let tray =
+        json!([{"id": "tray", "capacity": 4.0, "accepts": ["a"]}, {"id": "bin", "capacity": null, "accepts": null}]);
+    for goal in
+        [json!({"any_of": ["a", "b"]}), json!({"all_of": ["a"], "clear": null}), json!({"clear": true}), Value::Null]
+    {
+        let mut body = with("/goal", goal.clone());
+        body["drop_offs"] = tray.clone();
+        body["gripper"]["max_opening"] = json!(0.16);
+        body["gripper"]["opening"] = json!("full");
+        body["settings"] = json!({"destination": "drop_off"});
+        if !goal.is_null() {
+            body["target"] = Value::Null;
+        }
         assert!(typed::scene(body.to_string().as_bytes(), &limits).is_some(), "{body}");
     }
     let job = with("/priority", json!(-100));
