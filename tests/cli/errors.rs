@@ -68,7 +68,9 @@ fn every_fault_of_a_request_is_explained() {
 fn every_warning_is_explained() {
     let mut listed = words("Warnings", 0);
     // These are found while the request is read.
-    for word in ["overlap", "fingers_overlap", "hangs_over_table", "wide_yaw_tolerance", "out_of_proportion"] {
+    let of_scenes = ["overlap", "fingers_overlap", "hangs_over_table", "wide_yaw_tolerance", "out_of_proportion"];
+    let of_goals = ["too_wide", "unknown_object", "no_drop_off", "id_length"];
+    for word in [&of_scenes[..], &of_goals].concat() {
         assert!(listed.remove(word) && enumerated("ErrorCode").contains(word), "{word}");
     }
     assert_eq!(listed, matched(include_str!("../../planner/src/paper/warning.rs"), "code"));

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use singulate::config::{Config, SETTINGS, Setting};
 use singulate::keys::Keys;
 
-use crate::file;
+use crate::scenes::CROWD;
+use crate::{answered, file, run};
 
 const SCENE: &str = include_str!("../../docs/scene.md");
 const OPERATING: &str = "docs/operating.md";
@@ -208,8 +209,9 @@ fn fields(document: &Value, object: &Value, prefix: &str, found: &mut BTreeSet<F
         let (unit, range) = unit_and_range(property["description"].as_str().unwrap(), schema);
         let absent = if required { String::new() } else { default(property["description"].as_str().unwrap()) };
         found.insert([format!("`{name}`"), unit, range, absent]);
-        if schema["items"].is_object() {
-            fields(document, resolved(document, &schema["items"]), &format!("{name}[]."), found);
+        let items = resolved(document, &schema["items"]);
+        if items["properties"].is_object() {
+            fields(document, items, &format!("{name}[]."), found);
         }
     }
 }
@@ -219,8 +221,10 @@ fn unit_and_range(description: &str, schema: &Value) -> (String, String) {
     let kind = schema["type"].as_str().or_else(|| schema["type"][0].as_str()).unwrap();
     let number = |name: &str| schema[name].as_f64().unwrap();
     let (unit, range) = match kind {
+        "boolean" if description.starts_with("Always true") => ("bool", words(&["true"])),
         "boolean" => ("bool", words(&["true", "false"])),
-        "array" if schema["minItems"].is_null() => ("", "list".to_owned()),
+        "array" if schema["maxItems"].is_null() => ("", "list".to_owned()),
+        "array" if schema["minItems"].is_null() => ("", format!("up to {} items", schema["maxItems"])),
         "array" => ("", format!("{} to {} items", schema["minItems"], schema["maxItems"])),
         "string" if schema["enum"].is_array() => {
             let all: Vec<&str> = schema["enum"].as_array().unwrap().iter().map(|word| word.as_str().unwrap()).collect();
@@ -255,9 +259,32 @@ fn the_table_of_the_scene_is_that_of_the_interface_document() {
     let mut expected = BTreeSet::new();
     fields(&document, &document["components"]["schemas"]["SceneBody"], "", &mut expected);
     assert!(expected.len() > 25, "{expected:?}");
-    let rows = SCENE.lines().filter(|line| line.starts_with("| `"));
+    let table = SCENE.split("\n## Fields\n").nth(1).unwrap().split("\n## ").next().unwrap();
+    let rows = table.lines().filter(|line| line.starts_with("| `"));
     let cells = rows.map(|row| row.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>());
     let listed: BTreeSet<Field> = cells.map(|row| row[..4].to_vec().try_into().unwrap()).collect();
     let (missing, wrong) = (expected.difference(&listed), listed.difference(&expected));
     assert!(listed == expected, "missing {:?}, wrong {:?}", missing.collect::<Vec<_>>(), wrong.collect::<Vec<_>>());
+}
+
+/// The step and the goal on the page of scenes, for the table of the README.
+#[test]
+fn the_goal_and_the_step_that_are_shown_are_sound() {
+    let blocks: Vec<Value> = SCENE
+        .split("```json\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().unwrap())
+        .map(|text| serde_json::from_str(text).unwrap())
+        .collect();
+    let [step, goal] = &blocks[..] else { panic!("two blocks: {blocks:?}") };
+    let mut scene: Value = serde_json::from_str(CROWD).unwrap();
+    scene.as_object_mut().unwrap().remove("target");
+    scene.as_object_mut().unwrap().extend(goal.as_object().unwrap().clone());
+    let scene = file("shown-goal.json", &scene.to_string());
+    let cleared: Value = serde_json::from_str(&answered(run(&["plan", scene.to_str().unwrap()]))).unwrap();
+    assert_eq!((&cleared["verdict"], &cleared["proven"]), (&json!("cleared"), &json!(true)), "{cleared}");
+    let plan = file("shown-step.json", &json!({"relocations": [step]}).to_string());
+    let arguments = ["verify", scene.to_str().unwrap(), plan.to_str().unwrap(), "--partial"];
+    let verified: Value = serde_json::from_str(&answered(run(&arguments))).unwrap();
+    assert_eq!(verified["valid"], true, "{verified}");
 }
