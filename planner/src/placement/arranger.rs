@@ -47,17 +47,46 @@ impl<'a, 'e> Arranger<'a, 'e> {
         self.truncated
     }
 
-    /// Moves one of the remaining objects, then the rest.
+    /// Takes away what leaves the table and can be grasped, moves one of the other objects, then the rest.
     pub(super) fn step(&mut self, remaining: &[ObjectIndex], extra: usize) -> Result<Option<Arrangement>, Stop> {
+        if !remaining.iter().any(|&object| self.task.leaves(object)) {
+            return self.relocate_one(remaining, extra);
+        }
+        let before = self.moves.len();
+        let rest = self.take_all_away(remaining)?;
+        let done = self.relocate_one(&rest, extra)?;
+        if done.is_none() {
+            for gone in self.moves.split_off(before) {
+                self.table.layout.lift(gone.object(), false);
+            }
+        }
+        Ok(done)
+    }
+
+    /// Takes away what leaves the table, each object as soon as it can be grasped: that hinders nothing. Returns the others.
+    fn take_all_away(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<ObjectIndex>, Stop> {
+        let mut rest = remaining.to_vec();
+        loop {
+            let before = rest.len();
+            let mut staying = Vec::with_capacity(before);
+            for object in rest {
+                let grasp = if self.task.leaves(object) { self.table.grasp(object)? } else { None };
+                match grasp {
+                    Some(grasp) => self.take_away(object, grasp),
+                    None => staying.push(object),
+                }
+            }
+            rest = staying;
+            if rest.len() == before {
+                return Ok(rest);
+            }
+        }
+    }
+
+    /// Moves one of the remaining objects to another place, then the rest.
+    fn relocate_one(&mut self, remaining: &[ObjectIndex], extra: usize) -> Result<Option<Arrangement>, Stop> {
         if remaining.is_empty() {
             return Ok(self.done());
-        }
-        // What leaves the table goes as soon as it can: that hinders nothing.
-        for &object in remaining.iter().filter(|object| self.task.leaves(**object)) {
-            if let Some(grasp) = self.table.grasp(object)? {
-                let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != object).collect();
-                return self.take_away(object, grasp, &rest, extra);
-            }
         }
         let graspable = self.graspable(remaining)?;
         self.truncated |= graspable.len() > self.width;
@@ -168,31 +197,21 @@ impl<'a, 'e> Arranger<'a, 'e> {
             return Ok(None);
         }
         self.drop_offs.push(held);
-        let done = self.take_away(object, grasp, rest, extra)?;
+        self.take_away(object, grasp);
+        let done = self.step(rest, extra)?;
         if done.is_none() {
+            self.moves.pop();
+            self.table.layout.lift(object, false);
             self.drop_offs.pop();
         }
         Ok(done)
     }
 
-    /// Takes `object` away for good, and goes on with the rest.
-    fn take_away(
-        &mut self,
-        object: ObjectIndex,
-        grasp: Grasp,
-        rest: &[ObjectIndex],
-        extra: usize,
-    ) -> Result<Option<Arrangement>, Stop> {
+    /// Takes `object` away. The drop-off is known in the end, since objects may move on to others.
+    fn take_away(&mut self, object: ObjectIndex, grasp: Grasp) {
         let from = self.table.layout.footprint(object).pose;
         self.table.layout.lift(object, true);
-        // The drop-off is known in the end, since objects may move on to others.
         self.moves.push(Move::Drop(Removal { object, from, grasp, drop_off: 0 }));
-        let done = self.step(rest, extra)?;
-        if done.is_none() {
-            self.moves.pop();
-            self.table.layout.lift(object, false);
-        }
-        Ok(done)
     }
 
     /// The best places for `object`, as many as the width admits. They are found before any is tried: candidates take

@@ -55,6 +55,16 @@ pub enum Move {
     Drop(Removal),
 }
 
+impl Move {
+    /// The object that is moved.
+    pub fn object(&self) -> ObjectIndex {
+        match self {
+            Self::Place(step) => step.object,
+            Self::Drop(step) => step.object,
+        }
+    }
+}
+
 /// One pick-and-drop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Removal {

@@ -53,12 +53,20 @@ fn freed(question: &Question<'_>, set: &Derivation) -> Vec<Scene> {
 
 /// The candidates that can be grasped once some objects are gone, widest slack first, then in index order.
 pub(crate) fn free_candidates(scene: &Scene, model: &dyn GraspModel, gone: &[ObjectIndex]) -> Vec<ObjectIndex> {
-    let candidates = scene.goal().candidates().iter();
+    let may_be_free = |candidate: &&ObjectIndex| gone.is_empty() || frees_any(scene, model, gone, **candidate);
+    let candidates = scene.goal().candidates().iter().filter(may_be_free);
     let mut free: Vec<_> = candidates
         .filter_map(|&candidate| Some((grasp_without(scene, candidate, gone, model)?.slack, candidate)))
         .collect();
     free.sort_by(|a, b| b.0.total_cmp(&a.0));
     free.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// True if one of the objects that are gone stood near enough to the candidate to have blocked it: no other set frees it.
+fn frees_any(scene: &Scene, model: &dyn GraspModel, gone: &[ObjectIndex], candidate: ObjectIndex) -> bool {
+    let grasped = scene.object(candidate).footprint();
+    let reach = model.reach(scene.gripper(), &grasped);
+    gone.iter().any(|&object| scene.object(object).footprint().comes_within(grasped.at(), reach))
 }
 
 /// One set with its target.

@@ -205,3 +205,45 @@ impl Statement {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::budget::clocks::Looks;
+    use crate::check::Checker;
+    use crate::plan::{Settings, plan};
+    use crate::scene::GoalDraft;
+    use crate::scene::scenes::TestScene;
+    use crate::search::SILENT;
+
+    /// A row of five plates, the second of them fixed; the first and the last two can be taken away one after the other.
+    fn row(capacity: Option<u32>, accepts: Option<&[&str]>) -> Scene {
+        let mut scene = TestScene::new(2).finger(0.04, 0.05);
+        for (n, x) in [0.2, 0.37, 0.54, 0.71, 0.88].into_iter().enumerate() {
+            scene = scene.disc(&format!("p{n}"), x, 1.0, 0.08);
+        }
+        scene = scene.disc("cup", 0.54, 1.13, 0.04).fix("p1").drop_off("tray", capacity, None);
+        scene.drop_off("box", None, accepts.or(Some(&[]))).with_goal(GoalDraft::Clear)
+    }
+
+    #[test]
+    fn wherever_time_ends_the_steps_so_far_are_served() {
+        for scene in [row(None, None), row(Some(2), Some(&["p3"])), row(Some(1), Some(&["p2", "p4"]))] {
+            let whole = plan(&scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap().statement;
+            assert_eq!(whole.proven, Some(true));
+            let mut cut = 0;
+            for looks in 0..200 {
+                let clock = Looks::ending_after(looks);
+                let part = plan(&scene, &Settings::default(), &clock.budget(), SILENT).unwrap().statement;
+                let report = Checker::new(&scene).check(&part, &Budget::unlimited());
+                // What the clock left no time to prove can be proven, and is not said to be.
+                let faults = report.faults.iter().filter(|fault| fault.code.name() != "wrong_proven");
+                assert_eq!(faults.count(), 0, "{report:?} {part:?}");
+                assert!(part.proven.is_some() && whole.steps().len() >= part.steps().len());
+                assert!(part.proven == Some(false) || part.steps().len() == whole.steps().len(), "{part:?}");
+                cut += usize::from(part != whole);
+            }
+            assert!(cut > 10, "{cut}");
+        }
+    }
+}

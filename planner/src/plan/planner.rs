@@ -65,8 +65,10 @@ fn stated(
         let target = free.first().copied().unwrap_or(goal);
         return graspable_now(scene, target, &SweptFinger).map(|grasp| Statement::graspable(grasp).of(scene, target));
     }
-    let (memory, whole) = (Memory::default(), Restriction::default());
-    let search = || least_within(&memory, &base, goal, &whole, &searching, progress);
+    // That each of these moves is no news to the search, which finds landmarks one by one.
+    let wanted = Restriction { required: scene.goal().wanted_away().to_vec(), ..Restriction::default() };
+    let memory = Memory::default();
+    let search = || least_within(&memory, &base, goal, &wanted, &searching, progress);
     let outcome = timed(&mut times.search, budget, search);
     let rest = budget.share(PLACEMENT_SHARE);
     let question = Question { scene, base: &base, goal, model: &SweptFinger, objective: settings.objective };
