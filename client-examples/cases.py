@@ -23,8 +23,19 @@ STEP = {
     "release": {"yaw": -0.0004, "slack": 0.1},
     "gap": 0.1,
 }
+DROP = {
+    "action": "pick_drop",
+    "object": "plate-2",
+    "from": {"x": 0.31, "y": 0.2},
+    "grasp": {"yaw": 1.25, "slack": 0.1},
+    "drop_off": "tray",
+}
+ALSO = {**DROP, "object": "plate-1", "from": {"x": 0.5, "y": 0.29}}
+GO_ON = Canned(200, {"valid": True, "faults": [], "first_failing_step": None, "replan": False})
 PLAN_AGAIN = Canned(200, {"valid": False, "faults": [], "first_failing_step": 0, "replan": True})
 MOVE = "move plate-2 from 0.310 0.200 to 0.063 0.000, grasp at 1.250, release at 0.000\n"
+TAKE = "take plate-2 from 0.310 0.200 away to tray, grasp at 1.250\n"
+ALSO_TAKE = TAKE.replace("plate-2 from 0.310 0.200", "plate-1 from 0.500 0.290")
 
 
 @dataclass(frozen=True)
@@ -77,16 +88,25 @@ def nobody() -> Iterator[str]:
 
 
 def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
+    one_move = SCENES / "one-move.json"
+
     def proxy(*steps: Step, then: Step | None = None, verified: Step | None = None) -> Callable[[], Proxy]:
         return lambda: Proxy(list(steps), then or Pass(), verified or Pass(), upstream)
 
-    def scene(name: str, **settings: Any) -> Path:
+    def write(name: str, scene: Any) -> Path:
         path = folder / f"{name}.json"
-        whole = json.loads((SCENES / "one-move.json").read_text())
-        path.write_text(json.dumps({**whole, "settings": settings}))
+        path.write_text(json.dumps(scene))
         return path
 
-    one_move = SCENES / "one-move.json"
+    def scene(name: str, **settings: Any) -> Path:
+        return write(name, {**json.loads(one_move.read_text()), "settings": settings})
+
+    def dropping(name: str, **goal: Any) -> Path:
+        """The same table with a tray for two objects and a bin for any number."""
+        drop_offs = [{"id": "tray", "capacity": 2}, {"id": "bin"}]
+        table = json.loads(one_move.read_text())
+        return write(name, {**{key: table[key] for key in table if key != "target"}, "drop_offs": drop_offs, "goal": goal})
+
     *lines, _ = (SCENES / "expected" / "one-move.txt").read_text().splitlines(keepends=True)
     moved = "".join(lines)
     busy = problem(503, "overloaded", "Too busy", retry_after="1")
@@ -122,8 +142,7 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     yield Case("slash at the end", one_move, moved, 0, server=lambda: nullcontext(slash))
     endless_limit = scene("endless-limit", time_limit_ms=1e19)
     yield Case("a limit beyond all", endless_limit, "", 2, "/settings/time_limit_ms")
-    none = folder / "list.json"
-    none.write_text("[]")
+    none = write("list", [])
     yield Case("a list for a scene", none, "", 2, "wrong_type")
     late = answer("timed_out", needed=["a", "b"])
     told = "timed out: a, b would have to go\n"
@@ -138,8 +157,45 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     step = answer("relocate", relocations=[STEP], target_grasp=grasp)
     again = proxy(step, then=free, verified=PLAN_AGAIN)
     yield Case("plan again", one_move, MOVE + "grasp cup at 0.500\n", 0, server=again, check=planned_again)
+    yield from clearing_cases(proxy, dropping("clear", clear=True))
+    yield from away_cases(proxy, dropping("two-away", all_of=["plate-1", "plate-2"]))
     mute = proxy(step, verified=Canned(200, {"valid": True, "faults": []}))
     yield Case("torn verification", one_move, MOVE, 1, server=mute, check=counted(2))
+
+
+def clearing_cases(proxy: Callable[..., Any], clear: Path) -> Iterator[Case]:
+    """What is to be cleared, and what the answers say is left."""
+    whole = {"target": None, "left": [], "stuck": None, "proven": True}
+    cleared = proxy(answer("cleared", **whole, relocations=[DROP, ALSO]), verified=GO_ON)
+    yield Case("cleared", clear, TAKE + ALSO_TAKE + "cleared\n", 0, server=cleared, check=emptied)
+    nothing = proxy(answer("cleared", **whole))
+    yield Case("nothing to clear", clear, "cleared\n", 0, server=nothing, check=counted(1))
+    lock = {"blocked": ["cup", "plate-1", "vase"], "core": ["cup", "vase"]}
+    parts = {**whole, "left": ["cup", "plate-1"], "stuck": lock, "proven": False}
+    partly = proxy(answer("partly_cleared", **parts))
+    told = "stuck: cup, vase hold each other\npartly cleared: cup, plate-1 left, as far as is known\n"
+    yield Case("partly cleared", clear, told, 7, server=partly, check=counted(1))
+    for missing in ("left", "stuck", "proven"):
+        torn = proxy(answer("partly_cleared", **{name: part for name, part in parts.items() if name != missing}))
+        yield Case(f"partly cleared without {missing}", clear, "", 1, server=torn, check=counted(1))
+
+
+def away_cases(proxy: Callable[..., Any], all_of: Path) -> Iterator[Case]:
+    """Two plates are wanted away, and two objects fit on the tray."""
+
+    def away(*steps: Any, **parts: Any) -> Canned:
+        return answer("relocate", **{"target": None, "relocations": list(steps), **parts})
+
+    again = proxy(away(DROP, ALSO), PLAN_AGAIN, away(ALSO))
+    yield Case("one is away", all_of, TAKE + ALSO_TAKE + "all taken away\n", 0, server=again, check=still_wanted)
+    no_grasp = proxy(away(DROP, target="cup"))
+    yield Case("a target without a grasp", all_of, "", 1, server=no_grasp, check=counted(1))
+    nowhere = proxy(away({**DROP, "drop_off": "shelf"}))
+    yield Case("unknown drop-off", all_of, "", 1, "shelf", nowhere, check=counted(1))
+    cup = {**DROP, "object": "cup"}
+    third = proxy(away(cup, DROP), PLAN_AGAIN, away(DROP, ALSO), PLAN_AGAIN, away(ALSO))
+    taken = TAKE.replace("plate-2", "cup") + TAKE
+    yield Case("a full drop-off", all_of, taken, 1, "tray", third, check=counted(5))
 
 
 def counted(count: int) -> Callable[[list[Request]], str | None]:
@@ -198,6 +254,23 @@ def planned_again(requests: list[Request]) -> str | None:
     if verification != {"scene": again, "plan": left, "partial": True}:
         return f"it verified {verification}"
     return None
+
+
+def emptied(requests: list[Request]) -> str | None:
+    """A plan, and one verification: after the last step nothing is left to be asked."""
+    if [request.path.endswith(VERIFY) for request in requests] != [False, True]:
+        return f"it asked {[request.path for request in requests]}"
+    first, scene = requests[0].body, requests[1].body["scene"]
+    objects = [item for item in first["objects"] if item["id"] != "plate-2"]
+    wanted = {**first, "objects": objects, "drop_offs": [{"id": "tray", "capacity": 1}, {"id": "bin"}]}
+    return None if scene == wanted else f"it verified on {scene}"
+
+
+def still_wanted(requests: list[Request]) -> str | None:
+    """What is away is no longer asked for."""
+    goals = [request.body.get("scene", request.body)["goal"] for request in requests]
+    one = {"all_of": ["plate-1"]}
+    return None if goals == [{"all_of": ["plate-1", "plate-2"]}, one, one] else f"the goals are {goals}"
 
 
 def hundred_rounds(requests: list[Request]) -> str | None:

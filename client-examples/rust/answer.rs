@@ -16,25 +16,60 @@ pub(crate) enum Answer {
     TimedOut(Vec<String>),
 }
 
-/// What is left to do: the steps, then the grasp of the target.
+/// What is left to do: the steps, then what comes of them.
 pub(crate) struct Plan {
-    steps: VecDeque<Relocation>,
-    pub(crate) target: String,
-    pub(crate) yaw: f64,
+    steps: VecDeque<Step>,
+    pub(crate) end: End,
     /// The same as the service has put it.
     pub(crate) body: Value,
 }
 
+/// What comes of the steps of a plan.
+pub(crate) enum End {
+    /// The target can be grasped.
+    Grasp {
+        target: String,
+        yaw: f64,
+    },
+    /// All that is wanted away is away.
+    AllAway,
+    Cleared,
+    PartlyCleared(Remains),
+}
+
+/// What a clearing leaves on the table.
+#[derive(Deserialize)]
+pub(crate) struct Remains {
+    pub(crate) left: Vec<String>,
+    /// What locks itself, if anything does.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub(crate) stuck: Option<Lock>,
+    /// False if more could perhaps be taken away.
+    pub(crate) proven: bool,
+}
+
+pub(crate) enum Step {
+    Relocation(Relocation),
+    Removal(Removal),
+}
+
+/// To another place on the table.
 #[derive(Deserialize)]
 pub(crate) struct Relocation {
-    /// Read so that an unknown one is an error.
-    #[serde(rename = "action")]
-    _action: Action,
     pub(crate) object: String,
     pub(crate) from: Place,
     pub(crate) to: Place,
     pub(crate) grasp: Grasp,
     pub(crate) release: Grasp,
+}
+
+/// Away from the table.
+#[derive(Deserialize)]
+pub(crate) struct Removal {
+    pub(crate) object: String,
+    pub(crate) from: Place,
+    pub(crate) grasp: Grasp,
+    pub(crate) drop_off: String,
 }
 
 #[derive(Deserialize)]
@@ -49,6 +84,11 @@ pub(crate) struct Grasp {
 }
 
 #[derive(Deserialize)]
+pub(crate) struct Lock {
+    pub(crate) core: Vec<String>,
+}
+
+#[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Verdict {
     Graspable,
@@ -56,12 +96,8 @@ enum Verdict {
     Deadlock,
     NoSpace,
     TimedOut,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Action {
-    PickPlace,
+    Cleared,
+    PartlyCleared,
 }
 
 #[derive(Deserialize)]
@@ -70,20 +106,34 @@ struct Head {
 }
 
 #[derive(Deserialize)]
-struct Planned {
-    relocations: VecDeque<Relocation>,
-    target: String,
-    target_grasp: Grasp,
+struct Steps {
+    relocations: Vec<Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Action {
+    PickPlace,
+    PickDrop,
+}
+
+#[derive(Deserialize)]
+struct Kind {
+    action: Action,
+}
+
+/// Null may stand here, but the fields must.
+#[derive(Deserialize)]
+struct Target {
+    #[serde(deserialize_with = "Option::deserialize")]
+    target: Option<String>,
+    #[serde(deserialize_with = "Option::deserialize")]
+    target_grasp: Option<Grasp>,
 }
 
 #[derive(Deserialize)]
 struct Deadlock {
     deadlock: Option<Lock>,
-}
-
-#[derive(Deserialize)]
-struct Lock {
-    core: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -100,8 +150,10 @@ impl Answer {
     /// Read the body. A verdict or an action that this client does not know is an error.
     pub(crate) fn read(body: &str) -> serde_json::Result<Self> {
         match part::<Head>(body)?.verdict {
-            Verdict::Graspable => Plan::read(body, false).map(Self::Plan),
-            Verdict::Relocate => Plan::read(body, true).map(Self::Plan),
+            Verdict::Graspable => Plan::to_goal(body, false).map(Self::Plan),
+            Verdict::Relocate => Plan::to_goal(body, true).map(Self::Plan),
+            Verdict::Cleared => Plan::read(body, End::Cleared).map(Self::Plan),
+            Verdict::PartlyCleared => Plan::read(body, End::PartlyCleared(part(body)?)).map(Self::Plan),
             Verdict::Deadlock => {
                 let lock = part::<Deadlock>(body)?.deadlock;
                 Ok(Self::Deadlock(lock.map(|lock| lock.core).unwrap_or_default()))
@@ -113,19 +165,46 @@ impl Answer {
 }
 
 impl Plan {
-    fn read(body: &str, with_steps: bool) -> serde_json::Result<Self> {
-        let Planned { relocations: steps, target, target_grasp } = part(body)?;
-        if steps.is_empty() == with_steps {
-            return Err(Error::custom(format!("{} relocations do not go with the verdict", steps.len())));
+    /// Without a target, objects are taken away and none is grasped in the end.
+    fn to_goal(body: &str, with_steps: bool) -> serde_json::Result<Self> {
+        let plan = Self::read(
+            body,
+            match part(body)? {
+                Target { target: Some(target), target_grasp: Some(Grasp { yaw }) } => End::Grasp { target, yaw },
+                Target { target: None, target_grasp: None } => End::AllAway,
+                _ => return Err(Error::custom("a target without a grasp, or a grasp without a target")),
+            },
+        )?;
+        if plan.steps.is_empty() == with_steps {
+            return Err(Error::custom(format!("{} relocations do not go with the verdict", plan.steps.len())));
         }
-        Ok(Self { steps, target, yaw: target_grasp.yaw, body: part(body)? })
+        Ok(plan)
+    }
+
+    fn read(body: &str, end: End) -> serde_json::Result<Self> {
+        let steps = part::<Steps>(body)?.relocations.iter().map(Step::read).collect::<serde_json::Result<_>>()?;
+        Ok(Self { steps, end, body: part(body)? })
     }
 
     /// The next step. The plan is then what is left after it.
-    pub(crate) fn next_step(&mut self) -> Option<Relocation> {
+    pub(crate) fn next_step(&mut self) -> Option<Step> {
         let step = self.steps.pop_front()?;
         self.body["relocations"].as_array_mut()?.remove(0);
         Some(step)
+    }
+
+    /// True if the robot has nothing left to do.
+    pub(crate) fn is_done(&self) -> bool {
+        self.steps.is_empty() && !matches!(self.end, End::Grasp { .. })
+    }
+}
+
+impl Step {
+    fn read(step: &Value) -> serde_json::Result<Self> {
+        match Kind::deserialize(step)?.action {
+            Action::PickPlace => Relocation::deserialize(step).map(Self::Relocation),
+            Action::PickDrop => Removal::deserialize(step).map(Self::Removal),
+        }
     }
 }
 

@@ -1,18 +1,16 @@
-//! Frees the target of a scene, move by move: `cargo run --release --example cell -- SCENE.json`
+//! Reaches the goal of a scene, step by step: `cargo run --release --example cell -- SCENE.json`
 
 mod answer;
+mod scene;
 mod service;
 
 use std::process::ExitCode;
 
-use answer::{Answer, Relocation};
-use serde_json::Value;
+use answer::{Answer, End, Place, Relocation, Removal, Step};
+use scene::Scene;
 use service::{Failure, Service};
 
 const ROUNDS: usize = 100;
-/// The service's own limits, where its operator has not changed them.
-const DEFAULT_LIMIT_MS: u64 = 1000;
-const LONGEST_LIMIT_MS: u64 = 60_000;
 /// How far beside its place an object may be seen, m: the errors of this cell's robot and camera.
 const POSITION_TOLERANCE: f64 = 0.005;
 
@@ -47,14 +45,12 @@ async fn run(path: &str) -> Result<ExitCode, Failure> {
     let url = std::env::var("SINGULATE_URL").unwrap_or_else(|_| "http://127.0.0.1:8080".to_owned());
     let key = std::env::var("SINGULATE_KEY").ok().filter(|key| !key.is_empty());
     let service = Service::new(&url, key)?;
-    free(&service, scene).await
+    reach(&service, Scene(scene)).await
 }
 
-/// Plan, carry out a relocation, go on with the plan if it still holds; 0 once the target is grasped.
-async fn free(service: &Service, mut scene: Value) -> Result<ExitCode, Failure> {
-    let named_ms = scene.pointer("/settings/time_limit_ms").and_then(Value::as_u64);
-    let limit_ms = named_ms.unwrap_or(DEFAULT_LIMIT_MS).min(LONGEST_LIMIT_MS);
-    let mut answer = planned(service, &scene, limit_ms).await?;
+/// Plan, carry out a step, go on with the plan if it still holds; 0 once the goal is reached.
+async fn reach(service: &Service, mut scene: Scene) -> Result<ExitCode, Failure> {
+    let mut answer = planned(service, &scene).await?;
     for _ in 0..ROUNDS {
         let mut plan = match answer {
             Answer::Plan(plan) => plan,
@@ -62,42 +58,51 @@ async fn free(service: &Service, mut scene: Value) -> Result<ExitCode, Failure> 
             Answer::NoSpace(needed) => return Ok(report("no space", &needed, "would have to go", 4)),
             Answer::TimedOut(needed) => return Ok(report("timed out", &needed, "would have to go", 5)),
         };
-        let Some(step) = plan.next_step() else {
-            println!("grasp {} at {}", plan.target, number(plan.yaw));
-            return Ok(ExitCode::SUCCESS);
-        };
-        relocate(&mut scene, &step)?;
-        let replan = service.replan(&scene, &plan, POSITION_TOLERANCE, limit_ms).await?;
-        answer = if replan { planned(service, &scene, limit_ms).await? } else { Answer::Plan(plan) };
+        let Some(step) = plan.next_step() else { return Ok(finish(&plan.end)) };
+        carry_out(&mut scene, &step)?;
+        let replan = !plan.is_done() && service.replan(&scene, &plan, POSITION_TOLERANCE).await?;
+        answer = if replan { planned(service, &scene).await? } else { Answer::Plan(plan) };
     }
-    Err(Failure::Other(format!("gave up: the target is not free after {ROUNDS} moves")))
+    Err(Failure::Other(format!("gave up: the goal is not reached after {ROUNDS} moves")))
 }
 
 /// What comes too late is asked for once more, with ten times the time.
-async fn planned(service: &Service, scene: &Value, limit_ms: u64) -> Result<Answer, Failure> {
-    let answer = service.plan(scene, limit_ms).await?;
-    if !matches!(answer, Answer::TimedOut(_)) {
-        return Ok(answer);
-    }
-    let longer_ms = limit_ms.saturating_mul(10).min(LONGEST_LIMIT_MS);
-    let mut patient = scene.clone();
-    patient["settings"]["time_limit_ms"] = longer_ms.into();
-    service.plan(&patient, longer_ms).await
+async fn planned(service: &Service, scene: &Scene) -> Result<Answer, Failure> {
+    let answer = service.plan(scene).await?;
+    if matches!(answer, Answer::TimedOut(_)) { service.plan(&scene.with_more_time()).await } else { Ok(answer) }
 }
 
 /// Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that.
-fn relocate(scene: &mut Value, step: &Relocation) -> Result<(), Failure> {
-    let objects = scene["objects"].as_array_mut().map(Vec::as_mut_slice).unwrap_or_default();
-    let Some(moved) = objects.iter_mut().find(|object| object["id"] == step.object.as_str()) else {
-        return Err(Failure::Other(format!("no object '{}' in the scene", step.object)));
-    };
-    moved["x"] = step.to.x.into();
-    moved["y"] = step.to.y.into();
-    let [from_x, from_y, to_x, to_y] = [step.from.x, step.from.y, step.to.x, step.to.y].map(number);
-    let [grasp, release] = [step.grasp.yaw, step.release.yaw].map(number);
-    let object = &step.object;
-    println!("move {object} from {from_x} {from_y} to {to_x} {to_y}, grasp at {grasp}, release at {release}");
+fn carry_out(scene: &mut Scene, step: &Step) -> Result<(), Failure> {
+    match step {
+        Step::Relocation(Relocation { object, from, to, grasp, release }) => {
+            scene.put(object, to)?;
+            let [grasp, release] = [grasp.yaw, release.yaw].map(number);
+            println!("move {object} from {} to {}, grasp at {grasp}, release at {release}", point(from), point(to));
+        }
+        Step::Removal(Removal { object, from, grasp, drop_off }) => {
+            scene.take_away(object, drop_off)?;
+            println!("take {object} from {} away to {drop_off}, grasp at {}", point(from), number(grasp.yaw));
+        }
+    }
     Ok(())
+}
+
+/// The end of a plan; 0 if it reaches the goal.
+fn finish(end: &End) -> ExitCode {
+    match end {
+        End::Grasp { target, yaw } => println!("grasp {target} at {}", number(*yaw)),
+        End::AllAway => println!("all taken away"),
+        End::Cleared => println!("cleared"),
+        End::PartlyCleared(remains) => {
+            if let Some(lock) = &remains.stuck {
+                report("stuck", &lock.core, "hold each other", 7);
+            }
+            let what = if remains.proven { "left" } else { "left, as far as is known" };
+            return report("partly cleared", &remains.left, what, 7);
+        }
+    }
+    ExitCode::SUCCESS
 }
 
 /// The words alone where no ids are known.
@@ -108,6 +113,10 @@ fn report(words: &str, ids: &[String], what: &str, status: u8) -> ExitCode {
         println!("{words}: {} {what}", ids.join(", "));
     }
     ExitCode::from(status)
+}
+
+fn point(place: &Place) -> String {
+    format!("{} {}", number(place.x), number(place.y))
 }
 
 /// Millimetres and milliradians; what rounds to zero has no sign.

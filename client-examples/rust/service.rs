@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::answer::{Answer, Plan, read_replan};
+use crate::scene::Scene;
 
 const TRIES: u32 = 5;
 /// Before a lost connection is tried again; each pause is twice the last.
@@ -71,20 +72,14 @@ impl Service {
         Ok(Self { client, url: url.trim_end_matches('/').to_owned(), key })
     }
 
-    pub(crate) async fn plan(&self, scene: &Value, limit_ms: u64) -> Result<Answer, Failure> {
-        Ok(Answer::read(&self.ask("/v1/plans", scene, limit_ms).await?)?)
+    pub(crate) async fn plan(&self, scene: &Scene) -> Result<Answer, Failure> {
+        Ok(Answer::read(&self.ask("/v1/plans", &scene.0, scene.limit_ms()).await?)?)
     }
 
     /// Whether what is left of a plan can't be carried out any more on the table as it is now.
-    pub(crate) async fn replan(
-        &self,
-        scene: &Value,
-        left: &Plan,
-        tolerance: f64,
-        limit_ms: u64,
-    ) -> Result<bool, Failure> {
-        let body = json!({"scene": scene, "plan": left.body, "partial": true, "position_tolerance": tolerance});
-        Ok(read_replan(&self.ask("/v1/plans/verify", &body, limit_ms).await?)?)
+    pub(crate) async fn replan(&self, scene: &Scene, left: &Plan, tolerance: f64) -> Result<bool, Failure> {
+        let body = json!({"scene": scene.0, "plan": left.body, "partial": true, "position_tolerance": tolerance});
+        Ok(read_replan(&self.ask("/v1/plans/verify", &body, scene.limit_ms()).await?)?)
     }
 
     /// Ask until there is an answer. Neither question changes anything on the server, so asking again is safe.

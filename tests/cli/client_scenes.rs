@@ -38,17 +38,46 @@ fn number(value: &Value) -> String {
     format!("{:.3}", value.as_f64().unwrap())
 }
 
-/// Carry the first relocation out in the scene, and say so in the clients' words.
-fn relocate(scene: &mut Value, step: &Value) -> String {
-    let objects = scene["objects"].as_array_mut().unwrap();
-    let moved = objects.iter_mut().find(|object| object["id"] == step["object"]).unwrap();
-    moved["x"] = step["to"]["x"].clone();
-    moved["y"] = step["to"]["y"].clone();
-    let [from_x, from_y] = [&step["from"]["x"], &step["from"]["y"]].map(number);
-    let [to_x, to_y] = [&step["to"]["x"], &step["to"]["y"]].map(number);
-    let [grasp, release] = [&step["grasp"]["yaw"], &step["release"]["yaw"]].map(number);
+fn place(value: &Value) -> String {
+    format!("{} {}", number(&value["x"]), number(&value["y"]))
+}
+
+/// The item of this id in a list of the scene.
+fn position(list: &Value, id: &Value) -> usize {
+    list.as_array().unwrap().iter().position(|item| item["id"] == *id).unwrap()
+}
+
+/// Carry a step out in the scene, and say so in the clients' words.
+fn carry_out(scene: &mut Value, step: &Value) -> String {
     let object = step["object"].as_str().unwrap();
-    format!("move {object} from {from_x} {from_y} to {to_x} {to_y}, grasp at {grasp}, release at {release}\n")
+    let at = position(&scene["objects"], &step["object"]);
+    let (from, grasp) = (place(&step["from"]), number(&step["grasp"]["yaw"]));
+    if step["action"] == "pick_drop" {
+        take_away(scene, at, &step["drop_off"]);
+        let to = step["drop_off"].as_str().unwrap();
+        return format!("take {object} from {from} away to {to}, grasp at {grasp}\n");
+    }
+    assert_eq!(step["action"], "pick_place");
+    for axis in ["x", "y"] {
+        scene["objects"][at][axis] = step["to"][axis].clone();
+    }
+    let (to, release) = (place(&step["to"]), number(&step["release"]["yaw"]));
+    format!("move {object} from {from} to {to}, grasp at {grasp}, release at {release}\n")
+}
+
+/// The object at this position is at the drop-off, which is left out if it is full.
+fn take_away(scene: &mut Value, object: usize, drop_off: &Value) {
+    let gone = scene["objects"].as_array_mut().unwrap().remove(object);
+    let at = position(&scene["drop_offs"], drop_off);
+    if let Some(capacity) = scene["drop_offs"][at]["capacity"].as_u64() {
+        scene["drop_offs"][at]["capacity"] = (capacity - 1).into();
+        if capacity == 1 {
+            scene["drop_offs"].as_array_mut().unwrap().remove(at);
+        }
+    }
+    if let Some(wanted) = scene["goal"].get_mut("all_of") {
+        wanted.as_array_mut().unwrap().retain(|id| *id != gone["id"]);
+    }
 }
 
 /// What is left of a plan holds, so that no client plans again.
@@ -66,13 +95,28 @@ fn followed(mut scene: Value) -> String {
     let mut said = String::new();
     while !answer["relocations"].as_array().unwrap().is_empty() {
         let step = answer["relocations"].as_array_mut().unwrap().remove(0);
-        said.push_str(&relocate(&mut scene, &step));
-        holds(&scene, &answer);
+        said.push_str(&carry_out(&mut scene, &step));
+        // After the last step there is only a grasp to be asked about.
+        if !answer["relocations"].as_array().unwrap().is_empty() || !answer["target_grasp"].is_null() {
+            holds(&scene, &answer);
+        }
     }
-    said + &match answer["verdict"].as_str().unwrap() {
+    said + &end(&answer)
+}
+
+/// What a client prints at the end of a plan.
+fn end(answer: &Value) -> String {
+    match answer["verdict"].as_str().unwrap() {
+        "relocate" if answer["target"].is_null() => "all taken away\nexit 0\n".to_owned(),
         "graspable" | "relocate" => {
             let target = answer["target"].as_str().unwrap();
             format!("grasp {target} at {}\nexit 0\n", number(&answer["target_grasp"]["yaw"]))
+        }
+        "partly_cleared" => {
+            assert_eq!(answer["proven"], true);
+            let core = answer["stuck"].get("core");
+            let stuck = core.map(|core| format!("stuck: {} hold each other\n", ids(core))).unwrap_or_default();
+            format!("{stuck}partly cleared: {} left\nexit 7\n", ids(&answer["left"]))
         }
         "deadlock" => format!("deadlock: {} hold each other\nexit 3\n", ids(&answer["deadlock"]["core"])),
         "no_space" => format!("no space: {} would have to go\nexit 4\n", ids(&answer["needed"])),
@@ -101,7 +145,7 @@ fn every_client_scene_is_answered_as_the_clients_expect() {
         assert_eq!(followed(scene), expected, "{name}");
         ends.push(expected.trim_end().rsplit(' ').next().unwrap().to_owned());
     }
-    for status in ["0", "3", "4", "5"] {
+    for status in ["0", "3", "4", "5", "7"] {
         assert!(ends.iter().any(|end| end == status), "no scene ends with {status}");
     }
 }

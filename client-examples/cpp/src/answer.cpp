@@ -1,6 +1,7 @@
 #include "answer.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "failure.hpp"
 
@@ -14,46 +15,80 @@ Point read_point(const json& point) { return {point.at("x").get<double>(), point
 
 double read_yaw(const json& grasp) { return grasp.at("yaw").get<double>(); }
 
+std::vector<std::string> read_ids(const json& ids) { return ids.get<std::vector<std::string>>(); }
+
 /// Ids; none where there is null.
-std::vector<std::string> read_ids(const json& ids) {
-  return ids.is_null() ? std::vector<std::string>{} : ids.get<std::vector<std::string>>();
+std::vector<std::string> read_known(const json& ids) {
+  return ids.is_null() ? std::vector<std::string>{} : read_ids(ids);
 }
 
-Relocation read_relocation(const json& relocation) {
-  const auto action = relocation.at("action").get<std::string>();
-  if (action != "pick_place") {
-    throw Failure(Exit::refused, "unknown action: " + action);
+/// The core of a lock; no ids where there is none.
+std::vector<std::string> read_core(const json& lock) {
+  return lock.is_null() ? std::vector<std::string>{} : read_ids(lock.at("core"));
+}
+
+Step read_step(const json& step) {
+  const auto action = step.at("action").get<std::string>();
+  const auto object = step.at("object").get<std::string>();
+  const Point from = read_point(step.at("from"));
+  const double grasp_yaw = read_yaw(step.at("grasp"));
+  if (action == "pick_place") {
+    return Relocation{object, from, read_point(step.at("to")), grasp_yaw, read_yaw(step.at("release"))};
   }
-  return {relocation.at("object").get<std::string>(), read_point(relocation.at("from")), read_point(relocation.at("to")),
-          read_yaw(relocation.at("grasp")), read_yaw(relocation.at("release"))};
+  if (action == "pick_drop") {
+    return Removal{object, from, grasp_yaw, step.at("drop_off").get<std::string>()};
+  }
+  throw Failure(Exit::refused, "unknown action: " + action);
 }
 
 /// Reads all steps, so that a plan with an unknown action is refused before its first one.
-Plan read_plan(const json& document, bool with_steps) {
-  Plan plan{{}, document.at("target").get<std::string>(), read_yaw(document.at("target_grasp")), document};
-  for (const json& relocation : document.at("relocations")) {
-    plan.steps.push_back(read_relocation(relocation));
+Plan read_plan(const json& document, End end) {
+  Plan plan{{}, std::move(end), document};
+  for (const json& step : document.at("relocations")) {
+    plan.steps.push_back(read_step(step));
   }
+  return plan;
+}
+
+/// Without a target, objects are taken away and none is grasped in the end.
+End read_end(const json& document) {
+  if (document.at("target").is_null() && document.at("target_grasp").is_null()) {
+    return AllAway{};
+  }
+  return Grasp{document.at("target").get<std::string>(), read_yaw(document.at("target_grasp"))};
+}
+
+Plan read_plan_to_goal(const json& document, bool with_steps) {
+  Plan plan = read_plan(document, read_end(document));
   if (plan.steps.empty() == with_steps) {
     throw Failure(Exit::refused, "the answer is not understood: the relocations do not go with the verdict");
   }
   return plan;
 }
 
+PartlyCleared read_remains(const json& document) {
+  return {read_ids(document.at("left")), read_core(document.at("stuck")), document.at("proven").get<bool>()};
+}
+
 Answer read_verdict(const json& document) {
   const auto verdict = document.at("verdict").get<std::string>();
   if (verdict == "graspable" || verdict == "relocate") {
-    return read_plan(document, verdict == "relocate");
+    return read_plan_to_goal(document, verdict == "relocate");
+  }
+  if (verdict == "cleared") {
+    return read_plan(document, Cleared{});
+  }
+  if (verdict == "partly_cleared") {
+    return read_plan(document, read_remains(document));
   }
   if (verdict == "deadlock") {
-    const json& deadlock = document.at("deadlock");
-    return Deadlock{deadlock.is_null() ? std::vector<std::string>{} : read_ids(deadlock.at("core"))};
+    return Deadlock{read_core(document.at("deadlock"))};
   }
   if (verdict == "no_space") {
-    return NoSpace{read_ids(document.at("needed"))};
+    return NoSpace{read_known(document.at("needed"))};
   }
   if (verdict == "timed_out") {
-    return TimedOut{read_ids(document.at("needed"))};
+    return TimedOut{read_known(document.at("needed"))};
   }
   throw Failure(Exit::refused, "unknown verdict: " + verdict);
 }
@@ -76,6 +111,8 @@ Plan Plan::rest() const {
   rest.body.at("relocations").erase(0);
   return rest;
 }
+
+bool Plan::is_done() const { return steps.empty() && !std::holds_alternative<Grasp>(end); }
 
 Answer read_answer(const json& document) { return understood(read_verdict, document); }
 

@@ -12,6 +12,7 @@ struct Point {
   double y = 0;
 };
 
+/// To another place on the table.
 struct Relocation {
   std::string object;
   Point from;
@@ -20,18 +21,49 @@ struct Relocation {
   double release_yaw = 0;
 };
 
-/// What is left to do: the steps, then the grasp of the target.
-struct Plan {
-  std::vector<Relocation> steps;
+/// Away from the table.
+struct Removal {
+  std::string object;
+  Point from;
+  double grasp_yaw = 0;
+  std::string drop_off;
+};
+
+using Step = std::variant<Relocation, Removal>;
+
+/// The target can be grasped.
+struct Grasp {
   std::string target;
   double yaw = 0;
+};
+
+/// All that is wanted away is away.
+struct AllAway {};
+
+struct Cleared {};
+
+/// These stay on the table.
+struct PartlyCleared {
+  std::vector<std::string> left;
+  std::vector<std::string> stuck;  // those that lock themselves
+  bool proven = false;             // false if more could perhaps be taken away
+};
+
+using End = std::variant<Grasp, AllAway, Cleared, PartlyCleared>;
+
+/// What is left to do: the steps, then what comes of them.
+struct Plan {
+  std::vector<Step> steps;
+  End end;
   nlohmann::json body;  // the same as the service has put it
 
   /// What is left after the first step.
   [[nodiscard]] Plan rest() const;
+  /// Whether the robot has nothing left to do.
+  [[nodiscard]] bool is_done() const;
 };
 
-/// Nothing ever frees the target: these hold each other.
+/// Nothing ever reaches the goal: these hold each other.
 struct Deadlock {
   std::vector<std::string> core;
 };

@@ -7,13 +7,14 @@ namespace singulate {
 
 /// How the client ends.
 enum class Exit {
-  graspable = 0,
+  reached = 0,
   refused = 1,
   invalid_scene = 2,
   deadlock = 3,
   no_space = 4,
   timed_out = 5,
   key_refused = 6,
+  partly_cleared = 7,
 };
 
 /// Why there is no answer: words for stderr, and how the client ends.

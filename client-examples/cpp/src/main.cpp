@@ -1,5 +1,5 @@
 // A cell controller in small: asks for a plan, does its first step, and goes on with the plan as long as it holds, until the
-// target can be grasped.
+// goal is reached.
 
 #include <array>
 #include <cmath>
@@ -43,13 +43,46 @@ void print_ids(const char* verdict, const std::vector<std::string>& ids, const c
   std::cout << (ids.empty() ? "" : rest) << '\n';
 }
 
+std::string point(Point at) { return decimals(at.x) + ' ' + decimals(at.y); }
+
 /// Stands for the robot: a real one picks and places here, and its camera says where the object came to lie.
-void relocate(Scene& scene, const Relocation& step) {
-  scene.place(step.object, step.to);
-  std::cout << "move " << step.object << " from " << decimals(step.from.x) << ' ' << decimals(step.from.y) << " to "
-            << decimals(step.to.x) << ' ' << decimals(step.to.y) << ", grasp at " << decimals(step.grasp_yaw)
-            << ", release at " << decimals(step.release_yaw) << '\n';
-}
+struct CarryOut {
+  Scene& scene;
+
+  void operator()(const Relocation& step) const {
+    scene.put(step.object, step.to);
+    std::cout << "move " << step.object << " from " << point(step.from) << " to " << point(step.to) << ", grasp at "
+              << decimals(step.grasp_yaw) << ", release at " << decimals(step.release_yaw) << '\n';
+  }
+  void operator()(const Removal& step) const {
+    scene.take_away(step.object, step.drop_off);
+    std::cout << "take " << step.object << " from " << point(step.from) << " away to " << step.drop_off << ", grasp at "
+              << decimals(step.grasp_yaw) << '\n';
+  }
+};
+
+/// The end of a plan without steps.
+struct Finish {
+  Exit operator()(const Grasp& grasp) const {
+    std::cout << "grasp " << grasp.target << " at " << decimals(grasp.yaw) << '\n';
+    return Exit::reached;
+  }
+  Exit operator()(const AllAway&) const {
+    std::cout << "all taken away\n";
+    return Exit::reached;
+  }
+  Exit operator()(const Cleared&) const {
+    std::cout << "cleared\n";
+    return Exit::reached;
+  }
+  Exit operator()(const PartlyCleared& end) const {
+    if (!end.stuck.empty()) {
+      print_ids("stuck", end.stuck, " hold each other");
+    }
+    print_ids("partly cleared", end.left, end.proven ? " left" : " left, as far as is known");
+    return Exit::partly_cleared;
+  }
+};
 
 /// What comes too late is asked for once more, with ten times the time.
 Answer planned(Service& service, const Scene& scene) {
@@ -66,12 +99,12 @@ struct Follow {
 
   Next operator()(const Plan& plan) const {
     if (plan.steps.empty()) {
-      std::cout << "grasp " << plan.target << " at " << decimals(plan.yaw) << '\n';
-      return Exit::graspable;
+      return std::visit(Finish{}, plan.end);
     }
-    relocate(scene, plan.steps.front());
+    std::visit(CarryOut{scene}, plan.steps.front());
     const Plan left = plan.rest();
-    return service.replan(scene, left, position_tolerance) ? planned(service, scene) : left;
+    const bool replan = !left.is_done() && service.replan(scene, left, position_tolerance);
+    return replan ? planned(service, scene) : left;
   }
   Next operator()(const Deadlock& answer) const {
     print_ids("deadlock", answer.core, " hold each other");
@@ -99,7 +132,7 @@ Exit run(const std::string& path) {
     }
     answer = std::get<Answer>(std::move(next));
   }
-  throw Failure(Exit::refused, "gave up: not graspable after " + std::to_string(most_rounds) + " moves");
+  throw Failure(Exit::refused, "gave up: the goal is not reached after " + std::to_string(most_rounds) + " moves");
 }
 
 }  // namespace

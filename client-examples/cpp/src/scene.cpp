@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 namespace singulate {
 
+using nlohmann::json;
 using std::chrono::milliseconds;
 
 namespace {
@@ -17,6 +19,16 @@ namespace {
 constexpr milliseconds default_time_limit{1'000};
 constexpr milliseconds longest_time_limit{60'000};
 
+/// Where the item with this id is in a list of the scene.
+json::iterator find(json& document, const std::string& list, const std::string& id) {
+  json& items = document[list];
+  const auto found = std::find_if(items.begin(), items.end(), [&](const auto& each) { return each.at("id") == id; });
+  if (found == items.end()) {
+    throw Failure(Exit::refused, "the plan names " + id + ", which is not among the " + list + " of the scene");
+  }
+  return found;
+}
+
 }  // namespace
 
 Scene Scene::read(const std::string& path) {
@@ -24,7 +36,7 @@ Scene Scene::read(const std::string& path) {
   if (!file) {
     throw Failure(Exit::refused, path + " can't be read");
   }
-  auto document = nlohmann::json::parse(file, nullptr, false);
+  auto document = json::parse(file, nullptr, false);
   if (document.is_discarded()) {
     throw Failure(Exit::refused, path + " is not JSON");
   }
@@ -32,7 +44,7 @@ Scene Scene::read(const std::string& path) {
 }
 
 milliseconds Scene::time_limit() const {
-  static const nlohmann::json::json_pointer place("/settings/time_limit_ms");
+  static const json::json_pointer place("/settings/time_limit_ms");
   if (!document_.contains(place) || !document_.at(place).is_number()) {
     return default_time_limit;
   }
@@ -47,14 +59,29 @@ Scene Scene::with_more_time() const {
   return scene;
 }
 
-void Scene::place(const std::string& object, Point to) {
-  auto& objects = document_.at("objects");
-  const auto found = std::find_if(objects.begin(), objects.end(), [&](const auto& each) { return each.at("id") == object; });
-  if (found == objects.end()) {
-    throw Failure(Exit::refused, "the plan moves " + object + ", which is not in the scene");
-  }
+void Scene::put(const std::string& object, Point to) {
+  const auto found = find(document_, "objects", object);
   (*found)["x"] = to.x;
   (*found)["y"] = to.y;
+}
+
+void Scene::take_away(const std::string& object, const std::string& drop_off) {
+  const auto gone = find(document_, "objects", object);
+  const auto filled = find(document_, "drop_offs", drop_off);
+  document_["objects"].erase(gone);
+  if (filled->contains("capacity")) {
+    const auto capacity = filled->at("capacity").get<std::int64_t>() - 1;
+    if (capacity > 0) {
+      (*filled)["capacity"] = capacity;
+    } else {
+      document_["drop_offs"].erase(filled);
+    }
+  }
+  static const json::json_pointer wanted("/goal/all_of");
+  if (document_.contains(wanted)) {
+    auto& ids = document_.at(wanted);
+    ids.erase(std::remove(ids.begin(), ids.end(), json(object)), ids.end());
+  }
 }
 
 }  // namespace singulate

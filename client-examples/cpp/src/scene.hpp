@@ -18,7 +18,10 @@ class Scene {
   [[nodiscard]] std::chrono::milliseconds time_limit() const;
   /// The same scene with ten times the time to plan, as far as the service gives it.
   [[nodiscard]] Scene with_more_time() const;
-  void place(const std::string& object, Point to);
+  /// Puts an object elsewhere.
+  void put(const std::string& object, Point to);
+  /// Takes an object away to a drop-off. One that is then full is left out, and what is away is no longer wanted away.
+  void take_away(const std::string& object, const std::string& drop_off);
 
  private:
   explicit Scene(nlohmann::json document) : document_(std::move(document)) {}

@@ -1,19 +1,34 @@
-"""Frees the target of a scene, move by move: python -m cell SCENE.json"""
+"""Reaches the goal of a scene, step by step: python -m cell SCENE.json"""
 
 import asyncio
 import json
 import os
 import sys
 from pathlib import Path
-from typing import Any
 
-from .answers import Answer, Deadlock, NoSpace, Plan, Relocation, TimedOut, Unknown, read, read_replan
+from .answers import (
+    AllAway,
+    Answer,
+    Cleared,
+    Deadlock,
+    End,
+    Grasp,
+    NoSpace,
+    PartlyCleared,
+    Place,
+    Plan,
+    Relocation,
+    Removal,
+    Step,
+    TimedOut,
+    Unknown,
+    read,
+    read_replan,
+)
+from .scene import LONGEST_LIMIT_MS, Scene, put, take_away, time_limit_ms
 from .service import GaveUp, Refused, Service, Unreachable
 
 ROUNDS = 100
-DEFAULT_LIMIT_MS = 1000
-LONGEST_LIMIT_MS = 60_000
-"""The service's own limits, where its operator has not changed them."""
 POSITION_TOLERANCE = 0.005
 """How far beside its place an object may be seen, m: the errors of this cell's robot and camera."""
 
@@ -23,22 +38,38 @@ def number(value: float) -> str:
     return f"{value:z.3f}"
 
 
-def time_limit_ms(scene: Any) -> int:
-    """What the scene names. Whether it is in order, and a scene at all, is for the service to say."""
-    settings = scene.get("settings") if isinstance(scene, dict) else None
-    named = settings.get("time_limit_ms") if isinstance(settings, dict) else None
-    return min(max(named, 0), LONGEST_LIMIT_MS) if isinstance(named, int) else DEFAULT_LIMIT_MS
+def at(place: Place) -> str:
+    return f"{number(place.x)} {number(place.y)}"
 
 
-def relocate(scene: dict[str, Any], move: Relocation) -> None:
+def carry_out(scene: Scene, step: Step) -> None:
     """Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that."""
-    moved = next((item for item in scene["objects"] if item["id"] == move.object), None)
-    if moved is None:
-        raise Unknown(f"no object '{move.object}' in the scene")
-    places = f"from {number(move.start.x)} {number(move.start.y)} to {number(move.to.x)} {number(move.to.y)}"
-    yaws = f"grasp at {number(move.grasp_yaw)}, release at {number(move.release_yaw)}"
-    print(f"move {move.object} {places}, {yaws}", flush=True)
-    moved["x"], moved["y"] = move.to.x, move.to.y
+    match step:
+        case Relocation(name, start, to, grasp_yaw, release_yaw):
+            put(scene, name, to)
+            yaws = f"grasp at {number(grasp_yaw)}, release at {number(release_yaw)}"
+            print(f"move {name} from {at(start)} to {at(to)}, {yaws}", flush=True)
+        case Removal(name, start, grasp_yaw, drop_off):
+            take_away(scene, name, drop_off)
+            print(f"take {name} from {at(start)} away to {drop_off}, grasp at {number(grasp_yaw)}", flush=True)
+
+
+def finish(end: End) -> int:
+    """The exit status: 0 if the goal is reached."""
+    match end:
+        case Grasp(target, yaw):
+            print(f"grasp {target} at {number(yaw)}")
+            return 0
+        case AllAway():
+            print("all taken away")
+            return 0
+        case Cleared():
+            print("cleared")
+            return 0
+        case PartlyCleared(left, stuck, proven):
+            if stuck:
+                report("stuck", stuck, "hold each other", 7)
+            return report("partly cleared", left, "left" if proven else "left, as far as is known", 7)
 
 
 def report(words: str, ids: tuple[str, ...], what: str, status: int) -> int:
@@ -46,7 +77,7 @@ def report(words: str, ids: tuple[str, ...], what: str, status: int) -> int:
     return status
 
 
-async def planned(service: Service, scene: dict[str, Any], limit: int) -> Answer:
+async def planned(service: Service, scene: Scene, limit: int) -> Answer:
     """What comes too late is asked for once more, with ten times the time."""
     answer = read(await service.plan(scene, limit))
     if isinstance(answer, TimedOut):
@@ -56,27 +87,27 @@ async def planned(service: Service, scene: dict[str, Any], limit: int) -> Answer
     return answer
 
 
-async def free(service: Service, scene: dict[str, Any]) -> int:
-    """The exit status: 0 once the target is grasped."""
+async def reach(service: Service, scene: Scene) -> int:
+    """The exit status: 0 once the goal is reached."""
     limit = time_limit_ms(scene)
     answer = await planned(service, scene, limit)
     for _ in range(ROUNDS):
         match answer:
             case Plan(steps=(first, *_)) as plan:
-                relocate(scene, first)
-                rest = plan.rest()
-                replan = read_replan(await service.verify(scene, rest.body, POSITION_TOLERANCE, limit))
-                answer = await planned(service, scene, limit) if replan else rest
-            case Plan(target=target, yaw=yaw):
-                print(f"grasp {target} at {number(yaw)}")
-                return 0
+                carry_out(scene, first)
+                answer = plan.rest()
+                if not answer.is_done:
+                    verification = await service.verify(scene, answer.body, POSITION_TOLERANCE, limit)
+                    answer = await planned(service, scene, limit) if read_replan(verification) else answer
+            case Plan(end=end):
+                return finish(end)
             case Deadlock(core):
                 return report("deadlock", core, "hold each other", 3)
             case NoSpace(needed):
                 return report("no space", needed, "would have to go", 4)
             case TimedOut(needed):
                 return report("timed out", needed, "would have to go", 5)
-    raise GaveUp(f"the target is not free after {ROUNDS} moves")
+    raise GaveUp(f"the goal is not reached after {ROUNDS} moves")
 
 
 async def main(path: str) -> int:
@@ -84,7 +115,7 @@ async def main(path: str) -> int:
         scene = json.loads(Path(path).read_text(encoding="utf-8"))
         url, key = os.environ.get("SINGULATE_URL", "http://127.0.0.1:8080"), os.environ.get("SINGULATE_KEY")
         async with Service(url, key) as service:
-            return await free(service, scene)
+            return await reach(service, scene)
     except Refused as refused:
         if refused.status == 422:
             for fault in refused.faults:

@@ -16,6 +16,8 @@ class Place:
 
 @dataclass(frozen=True)
 class Relocation:
+    """To another place on the table."""
+
     object: str
     start: Place
     to: Place
@@ -24,12 +26,52 @@ class Relocation:
 
 
 @dataclass(frozen=True)
-class Plan:
-    """What is left to do: the steps, then the grasp of the target."""
+class Removal:
+    """Away from the table."""
 
-    steps: tuple[Relocation, ...]
+    object: str
+    start: Place
+    grasp_yaw: float
+    drop_off: str
+
+
+@dataclass(frozen=True)
+class Grasp:
+    """The target can be grasped."""
+
     target: str
     yaw: float
+
+
+@dataclass(frozen=True)
+class AllAway:
+    """All that is wanted away is away."""
+
+
+@dataclass(frozen=True)
+class Cleared:
+    pass
+
+
+@dataclass(frozen=True)
+class PartlyCleared:
+    left: tuple[str, ...]
+    stuck: tuple[str, ...]
+    """The core of what locks itself; empty if nothing does."""
+    proven: bool
+    """False if more could perhaps be taken away."""
+
+
+Step = Relocation | Removal
+End = Grasp | AllAway | Cleared | PartlyCleared
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is left to do: the steps, then what comes of them."""
+
+    steps: tuple[Step, ...]
+    end: End
     body: dict[str, Any]
     """The same as the service has put it."""
 
@@ -37,6 +79,11 @@ class Plan:
         """What is left after the first step."""
         body = {**self.body, "relocations": self.body["relocations"][1:]}
         return replace(self, steps=self.steps[1:], body=body)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the robot has nothing left to do."""
+        return not self.steps and not isinstance(self.end, Grasp)
 
 
 @dataclass(frozen=True)
@@ -76,12 +123,18 @@ def read_replan(body: Any) -> bool:
 def _verdict(body: Any) -> Answer:
     match body["verdict"]:
         case "graspable" | "relocate" as verdict:
-            steps = tuple(_relocation(step) for step in body["relocations"])
-            if (verdict == "relocate") != bool(steps):
-                raise Unknown(f"{len(steps)} relocations with the verdict '{verdict}'")
-            return Plan(steps, str(body["target"]), float(body["target_grasp"]["yaw"]), body)
+            plan = _plan(body, _end(body))
+            if (verdict == "relocate") != bool(plan.steps):
+                raise Unknown(f"{len(plan.steps)} relocations with the verdict '{verdict}'")
+            return plan
+        case "cleared":
+            return _plan(body, Cleared())
+        case "partly_cleared":
+            if not isinstance(proven := body["proven"], bool):
+                raise TypeError("'proven' is neither true nor false")
+            return _plan(body, PartlyCleared(_listed(body["left"]), _core(body["stuck"]), proven))
         case "deadlock":
-            return Deadlock(_ids((body["deadlock"] or {}).get("core")))
+            return Deadlock(_core(body["deadlock"]))
         case "no_space":
             return NoSpace(_ids(body["needed"]))
         case "timed_out":
@@ -90,21 +143,57 @@ def _verdict(body: Any) -> Answer:
             raise Unknown(f"unknown verdict '{verdict}'")
 
 
-def _relocation(step: Any) -> Relocation:
-    if step["action"] != "pick_place":
-        raise Unknown(f"unknown action '{step['action']}'")
-    return Relocation(
-        object=str(step["object"]),
-        start=_place(step["from"]),
-        to=_place(step["to"]),
-        grasp_yaw=float(step["grasp"]["yaw"]),
-        release_yaw=float(step["release"]["yaw"]),
-    )
+def _plan(body: Any, end: End) -> Plan:
+    return Plan(tuple(_step(step) for step in body["relocations"]), end, body)
+
+
+def _end(body: Any) -> Grasp | AllAway:
+    """Without a target, objects are taken away and none is grasped in the end."""
+    if body["target"] is None and body["target_grasp"] is None:
+        return AllAway()
+    return Grasp(_text(body["target"]), float(body["target_grasp"]["yaw"]))
+
+
+def _step(step: Any) -> Step:
+    match step["action"]:
+        case "pick_place":
+            return Relocation(
+                object=_text(step["object"]),
+                start=_place(step["from"]),
+                to=_place(step["to"]),
+                grasp_yaw=float(step["grasp"]["yaw"]),
+                release_yaw=float(step["release"]["yaw"]),
+            )
+        case "pick_drop":
+            return Removal(
+                object=_text(step["object"]),
+                start=_place(step["from"]),
+                grasp_yaw=float(step["grasp"]["yaw"]),
+                drop_off=_text(step["drop_off"]),
+            )
+        case action:
+            raise Unknown(f"unknown action '{action}'")
 
 
 def _place(body: Any) -> Place:
     return Place(float(body["x"]), float(body["y"]))
 
 
+def _core(lock: Any) -> tuple[str, ...]:
+    return _listed(lock["core"]) if lock is not None else ()
+
+
 def _ids(body: Any) -> tuple[str, ...]:
-    return tuple(str(name) for name in body or ())
+    return _listed(body) if body is not None else ()
+
+
+def _listed(body: Any) -> tuple[str, ...]:
+    if not isinstance(body, list):
+        raise TypeError(f"{body!r} is no list")
+    return tuple(_text(name) for name in body)
+
+
+def _text(body: Any) -> str:
+    if not isinstance(body, str):
+        raise TypeError(f"{body!r} is no text")
+    return body

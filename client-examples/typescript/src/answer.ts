@@ -6,6 +6,7 @@ export interface Point {
   readonly y: number;
 }
 
+/** To another place on the table. */
 export interface Relocation {
   readonly action: "pick_place";
   readonly object: string;
@@ -15,12 +16,37 @@ export interface Relocation {
   readonly releaseYaw: number;
 }
 
-/** What is left to do: the steps, then the grasp of the target. */
+/** Away from the table. */
+export interface Removal {
+  readonly action: "pick_drop";
+  readonly object: string;
+  readonly from: Point;
+  readonly graspYaw: number;
+  readonly dropOff: string;
+}
+
+export type Step = Relocation | Removal;
+
+/** What comes of the steps of a plan. */
+export type End =
+  /** The target can be grasped. */
+  | { readonly kind: "grasp"; readonly target: string; readonly yaw: number }
+  /** All that is wanted away is away. */
+  | { readonly kind: "all_away" }
+  | { readonly kind: "cleared" }
+  /** The objects of `stuck` lock themselves. Unless it is proven, more could perhaps be taken away. */
+  | {
+      readonly kind: "partly_cleared";
+      readonly left: readonly string[];
+      readonly stuck: readonly string[];
+      readonly proven: boolean;
+    };
+
+/** What is left to do: the steps, then what comes of them. */
 export interface Plan {
-  readonly verdict: "graspable" | "relocate";
-  readonly steps: readonly Relocation[];
-  readonly target: string;
-  readonly yaw: number;
+  readonly verdict: "graspable" | "relocate" | "cleared" | "partly_cleared";
+  readonly steps: readonly Step[];
+  readonly end: End;
   /** The same as the service has put it. */
   readonly body: Fields;
 }
@@ -28,7 +54,7 @@ export interface Plan {
 /** What the service says about a scene. The word `verdict` tells which fields there are. */
 export type Answer =
   | Plan
-  /** Nothing ever frees the target: the objects of the core hold each other. */
+  /** Nothing ever reaches the goal: the objects of the core hold each other. */
   | { readonly verdict: "deadlock"; readonly core: readonly string[] }
   /** The needed objects would have to go, but no places for them were found. */
   | { readonly verdict: "no_space"; readonly needed: readonly string[] }
@@ -44,25 +70,60 @@ function readYaw(value: unknown, place: string): number {
   return number(fields(value, place)["yaw"], `${place}/yaw`);
 }
 
-/** Ids; none where there is null. */
 function readIds(value: unknown, place: string): string[] {
-  return value === null ? [] : list(value, place).map((id, at) => text(id, `${place}/${at}`));
+  return list(value, place).map((id, at) => text(id, `${place}/${at}`));
 }
 
-function readRelocation(value: unknown, place: string): Relocation {
-  const relocation = fields(value, place);
-  const action = text(relocation["action"], `${place}/action`);
-  if (action !== "pick_place") {
-    throw new Failure(exit.refused, `unknown action: ${action}`);
-  }
-  return {
-    action,
-    object: text(relocation["object"], `${place}/object`),
-    from: readPoint(relocation["from"], `${place}/from`),
-    to: readPoint(relocation["to"], `${place}/to`),
-    graspYaw: readYaw(relocation["grasp"], `${place}/grasp`),
-    releaseYaw: readYaw(relocation["release"], `${place}/release`),
+/** Ids; none where there is null. */
+function readKnown(value: unknown, place: string): string[] {
+  return value === null ? [] : readIds(value, place);
+}
+
+/** The core of a lock; no ids where there is none. */
+function readCore(value: unknown, place: string): string[] {
+  return value === null ? [] : readIds(fields(value, place)["core"], `${place}/core`);
+}
+
+function readStep(value: unknown, place: string): Step {
+  const step = fields(value, place);
+  const action = text(step["action"], `${place}/action`);
+  const pick = {
+    object: text(step["object"], `${place}/object`),
+    from: readPoint(step["from"], `${place}/from`),
+    graspYaw: readYaw(step["grasp"], `${place}/grasp`),
   };
+  switch (action) {
+    case "pick_place":
+      return {
+        action,
+        ...pick,
+        to: readPoint(step["to"], `${place}/to`),
+        releaseYaw: readYaw(step["release"], `${place}/release`),
+      };
+    case "pick_drop":
+      return { action, ...pick, dropOff: text(step["drop_off"], `${place}/drop_off`) };
+    default:
+      throw new Failure(exit.refused, `unknown action: ${action}`);
+  }
+}
+
+/** Without a target, objects are taken away and none is grasped in the end. */
+function readEnd(answer: Fields): End {
+  if (answer["target"] === null && answer["target_grasp"] === null) {
+    return { kind: "all_away" };
+  }
+  const yaw = readYaw(answer["target_grasp"], "/target_grasp");
+  return { kind: "grasp", target: text(answer["target"], "/target"), yaw };
+}
+
+function readRemains(answer: Fields): End {
+  const [left, stuck] = [readIds(answer["left"], "/left"), readCore(answer["stuck"], "/stuck")];
+  return { kind: "partly_cleared", left, stuck, proven: boolean(answer["proven"], "/proven") };
+}
+
+function readPlan(verdict: Plan["verdict"], end: End, answer: Fields): Plan {
+  const steps = list(answer["relocations"], "/relocations").map((each, at) => readStep(each, `/relocations/${at}`));
+  return { verdict, steps, end, body: answer };
 }
 
 /** Refuses what it does not understand, above all verdicts and actions of later versions. */
@@ -72,22 +133,22 @@ export function readAnswer(value: unknown): Answer {
   switch (verdict) {
     case "graspable":
     case "relocate": {
-      const steps = list(answer["relocations"], "/relocations").map((each, at) =>
-        readRelocation(each, `/relocations/${at}`),
-      );
-      if (steps.length > 0 !== (verdict === "relocate")) {
-        throw new Failure(exit.refused, `the answer is not understood: ${verdict} with ${steps.length} relocations`);
+      const plan = readPlan(verdict, readEnd(answer), answer);
+      const count = plan.steps.length;
+      if (count > 0 !== (verdict === "relocate")) {
+        throw new Failure(exit.refused, `the answer is not understood: ${verdict} with ${count} relocations`);
       }
-      const yaw = readYaw(answer["target_grasp"], "/target_grasp");
-      return { verdict, steps, target: text(answer["target"], "/target"), yaw, body: answer };
+      return plan;
     }
-    case "deadlock": {
-      const deadlock = answer["deadlock"];
-      return { verdict, core: deadlock === null ? [] : readIds(fields(deadlock, "/deadlock")["core"], "/deadlock/core") };
-    }
+    case "cleared":
+      return readPlan(verdict, { kind: "cleared" }, answer);
+    case "partly_cleared":
+      return readPlan(verdict, readRemains(answer), answer);
+    case "deadlock":
+      return { verdict, core: readCore(answer["deadlock"], "/deadlock") };
     case "no_space":
     case "timed_out":
-      return { verdict, needed: readIds(answer["needed"], "/needed") };
+      return { verdict, needed: readKnown(answer["needed"], "/needed") };
     default:
       throw new Failure(exit.refused, `unknown verdict: ${verdict}`);
   }
@@ -97,6 +158,11 @@ export function readAnswer(value: unknown): Answer {
 export function rest(plan: Plan): Plan {
   const relocations = list(plan.body["relocations"], "/relocations").slice(1);
   return { ...plan, steps: plan.steps.slice(1), body: { ...plan.body, relocations } };
+}
+
+/** Whether the robot has nothing left to do. */
+export function isDone(plan: Plan): boolean {
+  return plan.steps.length === 0 && plan.end.kind !== "grasp";
 }
 
 /** Whether a verification asks for a new plan. */

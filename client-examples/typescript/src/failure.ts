@@ -1,12 +1,13 @@
 /** How the client ends. */
 export const exit = {
-  graspable: 0,
+  reached: 0,
   refused: 1,
   invalidScene: 2,
   deadlock: 3,
   noSpace: 4,
   timedOut: 5,
   keyRefused: 6,
+  partlyCleared: 7,
 } as const;
 
 export type Exit = (typeof exit)[keyof typeof exit];

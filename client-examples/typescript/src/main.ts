@@ -1,7 +1,7 @@
 // A cell controller in small: asks for a plan, does its first step, and goes on with the plan as long as it holds, until the
-// target can be grasped.
+// goal is reached.
 
-import { rest, type Answer, type Relocation } from "./answer.js";
+import { isDone, rest, type Answer, type End, type Point, type Step } from "./answer.js";
 import { exit, Failure, type Exit } from "./failure.js";
 import { Scene } from "./scene.js";
 import { Service } from "./service.js";
@@ -23,12 +23,46 @@ function withIds(verdict: string, ids: readonly string[], rest: string): string 
   return ids.length > 0 ? `${verdict}: ${ids.join(", ")} ${rest}` : verdict;
 }
 
+function point({ x, y }: Point): string {
+  return `${decimals(x)} ${decimals(y)}`;
+}
+
 /** Stands for the robot: a real one picks and places here, and its camera says where the object came to lie. */
-function relocate(scene: Scene, { object, from, to, graspYaw, releaseYaw }: Relocation): Scene {
-  const moved = scene.with(object, to);
-  const way = `from ${decimals(from.x)} ${decimals(from.y)} to ${decimals(to.x)} ${decimals(to.y)}`;
-  console.log(`move ${object} ${way}, grasp at ${decimals(graspYaw)}, release at ${decimals(releaseYaw)}`);
-  return moved;
+function carryOut(scene: Scene, step: Step): Scene {
+  const { object, from, graspYaw } = step;
+  switch (step.action) {
+    case "pick_place": {
+      const moved = scene.with(object, step.to);
+      const yaws = `grasp at ${decimals(graspYaw)}, release at ${decimals(step.releaseYaw)}`;
+      console.log(`move ${object} from ${point(from)} to ${point(step.to)}, ${yaws}`);
+      return moved;
+    }
+    case "pick_drop": {
+      const left = scene.without(object, step.dropOff);
+      console.log(`take ${object} from ${point(from)} away to ${step.dropOff}, grasp at ${decimals(graspYaw)}`);
+      return left;
+    }
+  }
+}
+
+function finish(end: End): Exit {
+  switch (end.kind) {
+    case "grasp":
+      console.log(`grasp ${end.target} at ${decimals(end.yaw)}`);
+      return exit.reached;
+    case "all_away":
+      console.log("all taken away");
+      return exit.reached;
+    case "cleared":
+      console.log("cleared");
+      return exit.reached;
+    case "partly_cleared":
+      if (end.stuck.length > 0) {
+        console.log(withIds("stuck", end.stuck, "hold each other"));
+      }
+      console.log(withIds("partly cleared", end.left, end.proven ? "left" : "left, as far as is known"));
+      return exit.partlyCleared;
+  }
 }
 
 /** What comes too late is asked for once more, with ten times the time. */
@@ -47,15 +81,17 @@ async function run(path: string): Promise<Exit> {
   for (let round = 0; round < mostRounds; round++) {
     switch (answer.verdict) {
       case "relocate":
-      case "graspable": {
+      case "graspable":
+      case "cleared":
+      case "partly_cleared": {
         const [step] = answer.steps;
         if (step === undefined) {
-          console.log(`grasp ${answer.target} at ${decimals(answer.yaw)}`);
-          return exit.graspable;
+          return finish(answer.end);
         }
-        scene = relocate(scene, step);
+        scene = carryOut(scene, step);
         const left = rest(answer);
-        answer = (await service.replan(scene, left, positionTolerance)) ? await planned(service, scene) : left;
+        const replan = !isDone(left) && (await service.replan(scene, left, positionTolerance));
+        answer = replan ? await planned(service, scene) : left;
         break;
       }
       case "deadlock":
@@ -72,7 +108,7 @@ async function run(path: string): Promise<Exit> {
         answer satisfies never;
     }
   }
-  throw new Failure(exit.refused, `gave up: not graspable after ${mostRounds} moves`);
+  throw new Failure(exit.refused, `gave up: the goal is not reached after ${mostRounds} moves`);
 }
 
 async function main(): Promise<Exit> {

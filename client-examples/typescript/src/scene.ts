@@ -36,14 +36,41 @@ export class Scene {
 
   /** The same scene with one object elsewhere. */
   with(object: string, to: Point): Scene {
-    const objects: unknown = this.fields["objects"];
-    if (!Array.isArray(objects) || !objects.some((each) => isFields(each) && each["id"] === object)) {
-      throw new Failure(exit.refused, `the plan moves ${object}, which is not in the scene`);
-    }
-    const moved = objects.map((each: unknown) =>
+    const moved = this.items("objects", object).map((each) =>
       isFields(each) && each["id"] === object ? { ...each, x: to.x, y: to.y } : each,
     );
     return new Scene({ ...this.fields, objects: moved });
+  }
+
+  /**
+   * The same scene with one object at a drop-off. One that is then full is left out, and what is away is no longer wanted
+   * away.
+   */
+  without(object: string, dropOff: string): Scene {
+    const objects = this.items("objects", object).filter((each) => !isFields(each) || each["id"] !== object);
+    const dropOffs = this.items("drop_offs", dropOff).flatMap((each) => {
+      const capacity = isFields(each) && each["id"] === dropOff ? each["capacity"] : undefined;
+      if (!isFields(each) || typeof capacity !== "number") {
+        return [each];
+      }
+      return capacity > 1 ? [{ ...each, capacity: capacity - 1 }] : [];
+    });
+    return new Scene({ ...this.fields, objects, drop_offs: dropOffs, ...this.goalWithout(object) });
+  }
+
+  /** The list of this name, which has an item with this id. */
+  private items(name: string, id: string): readonly unknown[] {
+    const items: unknown = this.fields[name];
+    if (!Array.isArray(items) || !items.some((each) => isFields(each) && each["id"] === id)) {
+      throw new Failure(exit.refused, `the plan names ${id}, which is not among the ${name} of the scene`);
+    }
+    return items;
+  }
+
+  private goalWithout(object: string): Fields {
+    const goal = this.fields["goal"];
+    const wanted = isFields(goal) ? goal["all_of"] : undefined;
+    return Array.isArray(wanted) ? { goal: { all_of: wanted.filter((id) => id !== object) } } : {};
   }
 
   private get fields(): Fields {
