@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING, Any, Callable, Dict, Tuple
 
 from singulate_ros.failure import Failure
 from singulate_ros.mapping import Scene
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import Pose
+
+Places = Dict[str, Tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -20,46 +22,47 @@ class Grip:
     x: float
     y: float
     yaw: float
+    over_drop_off: bool = False
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Grasp and release of each relocation in turn; then the target's grasp."""
+    """Grasp and release of each step in turn; then the target's grasp, if one is grasped."""
 
     grips: list[Grip]
     words: str
 
 
-def read_answer(answer: Any, scene: Scene) -> Plan:
-    """Refuses what it does not understand, above all verdicts and actions of later versions."""
+def read_answer(answer: Any, scene: Scene, places: Places) -> Plan:
+    """`places` are those of the drop-offs. Refuses what it does not understand, above all verdicts and actions of later
+    versions."""
     try:
-        return _read(answer, scene)
+        return _read(answer, scene, places)
     except (KeyError, TypeError, ValueError) as error:
         raise Failure(f"the answer is not understood: {error!r}") from error
 
 
-def to_poses(plan: Plan, z: float, new_pose: Callable[[], Pose]) -> list[Pose]:
+def to_poses(plan: Plan, tool_z: float, drop_z: float, new_pose: Callable[[], Pose]) -> list[Pose]:
     """One pose for each grip, its tool upright: only turned about z."""
     poses = []
     for grip in plan.grips:
         pose = new_pose()
-        pose.position.x, pose.position.y, pose.position.z = grip.x, grip.y, z
+        pose.position.x, pose.position.y = grip.x, grip.y
+        pose.position.z = drop_z if grip.over_drop_off else tool_z
         pose.orientation.x, pose.orientation.y = 0.0, 0.0
         pose.orientation.z, pose.orientation.w = math.sin(grip.yaw / 2), math.cos(grip.yaw / 2)
         poses.append(pose)
     return poses
 
 
-def _read(answer: Any, scene: Scene) -> Plan:
+def _read(answer: Any, scene: Scene, places: Places) -> Plan:
     verdict = answer["verdict"]
     if verdict in ("graspable", "relocate"):
-        grips = [grip for relocation in answer["relocations"] for grip in _relocation(relocation)]
-        if verdict == "relocate" and not grips:
-            raise Failure("the answer is not understood: relocate without a relocation")
-        target = next(each for each in scene["objects"] if each["id"] == scene["target"])
-        grips.append(Grip(target["x"], target["y"], float(answer["target_grasp"]["yaw"])))
-        moved = [relocation["object"] for relocation in answer["relocations"]]
-        return Plan(grips, f"move {', '.join(moved)}, then grasp" if moved else "grasp")
+        return _to_goal(answer, scene, places)
+    if verdict == "cleared":
+        return _steps(answer, places, "cleared")
+    if verdict == "partly_cleared":
+        return _steps(answer, places, f"partly cleared: {_remains(answer)}")
     if verdict == "deadlock":
         core = answer["deadlock"]["core"] if answer["deadlock"] else []
         raise Failure(f"deadlock: {', '.join(core)} hold each other" if core else "deadlock")
@@ -70,10 +73,43 @@ def _read(answer: Any, scene: Scene) -> Plan:
     raise Failure(f"unknown verdict: {verdict}")
 
 
-def _relocation(relocation: Any) -> list[Grip]:
-    if relocation["action"] != "pick_place":
-        raise Failure(f"unknown action: {relocation['action']}")
-    return [
-        Grip(float(relocation[place]["x"]), float(relocation[place]["y"]), float(relocation[grasp]["yaw"]))
-        for place, grasp in (("from", "grasp"), ("to", "release"))
-    ]
+def _to_goal(answer: Any, scene: Scene, places: Places) -> Plan:
+    """Without a target, objects are taken away and none is grasped in the end."""
+    if (answer["verdict"] == "relocate") != bool(answer["relocations"]):
+        raise Failure("the answer is not understood: the relocations do not go with the verdict")
+    if answer["target"] is None and answer["target_grasp"] is None:
+        return _steps(answer, places, "all taken away")
+    target = next((each for each in scene["objects"] if each["id"] == answer["target"]), None)
+    if target is None:
+        raise Failure(f"the answer is not understood: '{answer['target']}' is not in the scene")
+    plan = _steps(answer, places, f"grasp {target['id']}")
+    return Plan([*plan.grips, Grip(target["x"], target["y"], float(answer["target_grasp"]["yaw"]))], plan.words)
+
+
+def _remains(answer: Any) -> str:
+    """What a clearing leaves."""
+    stuck = f"; {', '.join(answer['stuck']['core'])} hold each other" if answer["stuck"] is not None else ""
+    if not isinstance(answer["proven"], bool):
+        raise TypeError("'proven' is neither true nor false")
+    return f"{', '.join(answer['left'])} left{'' if answer['proven'] else ', as far as is known'}{stuck}"
+
+
+def _steps(answer: Any, places: Places, end: str) -> Plan:
+    """Their grips, and the plan in words with what comes of them."""
+    read = [_step(step, places) for step in answer["relocations"]]
+    words = [step_words for _, step_words in read]
+    return Plan([grip for grips, _ in read for grip in grips], f"{', '.join(words)}, then {end}" if words else end)
+
+
+def _step(step: Any, places: Places) -> tuple[list[Grip], str]:
+    grasp = Grip(float(step["from"]["x"]), float(step["from"]["y"]), float(step["grasp"]["yaw"]))
+    if step["action"] == "pick_place":
+        release = Grip(float(step["to"]["x"]), float(step["to"]["y"]), float(step["release"]["yaw"]))
+        return [grasp, release], f"move {step['object']}"
+    if step["action"] == "pick_drop":
+        drop_off = step["drop_off"]
+        if drop_off not in places:
+            raise Failure(f"the answer is not understood: there is no drop-off '{drop_off}'")
+        x, y = places[drop_off]
+        return [grasp, Grip(x, y, grasp.yaw, over_drop_off=True)], f"take {step['object']} to {drop_off}"
+    raise Failure(f"unknown action: {step['action']}")

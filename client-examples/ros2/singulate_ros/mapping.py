@@ -10,6 +10,8 @@ An object covers the smallest circle about its middle that holds its shadow on t
 upright box. Around a plate's bounding box that circle would be 1.4 times the plate, and plates that stand close would
 overlap. So those of the round classes count as upright cylinders inside their boxes: half the larger side, and more the
 further they lean.
+
+A drop-off is a collision object too. It is an obstacle only where it stands on the table.
 """
 
 from __future__ import annotations
@@ -17,9 +19,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Iterator, TypedDict
 
+from singulate_ros.drop_offs import DropOff, configured, middle
 from singulate_ros.failure import Failure
 from singulate_ros.footprint import Footprint, Placement, box, cylinder, sphere
 from singulate_ros.settings import Settings
+from singulate_ros.wanted import Wanted, want
 
 if TYPE_CHECKING:
     from moveit_msgs.msg import CollisionObject, PlanningScene
@@ -41,12 +45,17 @@ class Rectangle(TypedDict):
     y_max: float
 
 
-class Gripper(TypedDict):
+class Fingers(TypedDict):
     fingers: int
     finger_width: float
     clearance: float
     margin: float
     yaw_tolerance: float
+
+
+class Gripper(Fingers, total=False):
+    max_opening: float
+    opening: str
 
 
 class Disc(TypedDict):
@@ -63,15 +72,19 @@ class TimeLimit(TypedDict):
 
 class Limits(TimeLimit, total=False):
     overlap_tolerance: float
+    destination: str
 
 
-class Scene(TypedDict):
+class DropOffs(TypedDict, total=False):
+    drop_offs: list[DropOff]
+
+
+class Scene(Wanted, DropOffs):
     """The body of a planning request."""
 
     table: Rectangle
     gripper: Gripper
     objects: list[Disc]
-    target: str
     settings: Limits
 
 
@@ -81,17 +94,38 @@ def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settin
         raise Failure("the planning scene is a diff; all of it is needed")
     _check_frame("the detections", detections.header.frame_id, settings)
     table, table_top = _table(planning_scene, settings)
-    found = [(name, footprint, False) for name, footprint in _detected(detections, settings)]
-    detected = {name for name, _, _ in found} | {settings.table}
+    seen = list(_detected(detections, settings))
+    detected = {name for name, _, _ in seen} | {settings.table}
+    seen = [each for each in seen if _is_on(table, table_top, each[2], each[0])]
+    found = [(name, footprint, False) for name, _, footprint in seen]
     for obstacle in planning_scene.world.collision_objects:
         if obstacle.id not in detected:
-            found += [(name, footprint, True) for name, footprint in _solids(obstacle, settings)]
+            solids = _solids(obstacle, settings)
+            found += [(name, each, True) for name, each in solids if _is_on(table, table_top, each, name)]
     objects = [
         Disc(id=name, x=footprint.x, y=footprint.y, radius=footprint.radius, fixed=fixed)
         for name, footprint, fixed in found
-        if _is_on(table, table_top, footprint, name)
     ]
-    _check_ids(objects, settings)
+    _check_ids(objects)
+    scene = Scene(table=table, gripper=_gripper(settings), objects=objects, settings=_limits(settings))
+    want(scene, settings, {each["id"] for each in objects})
+    if drop_offs := configured(settings):
+        classes = {name: kind for name, kind, _ in seen}
+        scene["drop_offs"] = [each.in_scene(classes) for each in drop_offs]
+    return scene
+
+
+def drop_places(planning_scene: PlanningScene, settings: Settings) -> dict[str, tuple[float, float]]:
+    """Where each drop-off is."""
+    places = {}
+    for drop_off in configured(settings):
+        obstacles = [each for each in planning_scene.world.collision_objects if each.id == drop_off.name]
+        solids = [placement for obstacle in obstacles for _, placement in _placed(obstacle, settings)]
+        places[drop_off.name] = middle(solids, drop_off.name)
+    return places
+
+
+def _gripper(settings: Settings) -> Gripper:
     gripper = Gripper(
         fingers=settings.fingers,
         finger_width=settings.finger_width,
@@ -99,10 +133,20 @@ def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settin
         margin=settings.margin,
         yaw_tolerance=settings.yaw_tolerance,
     )
+    if not math.isnan(settings.max_opening):
+        gripper["max_opening"] = settings.max_opening
+    if settings.opening:
+        gripper["opening"] = settings.opening
+    return gripper
+
+
+def _limits(settings: Settings) -> Limits:
     limits = Limits(time_limit_ms=settings.time_limit_ms)
     if not math.isnan(settings.overlap_tolerance):
         limits["overlap_tolerance"] = settings.overlap_tolerance
-    return Scene(table=table, gripper=gripper, objects=objects, target=settings.target, settings=limits)
+    if settings.destination:
+        limits["destination"] = settings.destination
+    return limits
 
 
 def _check_frame(whose: str, frame: str, settings: Settings) -> None:
@@ -110,13 +154,11 @@ def _check_frame(whose: str, frame: str, settings: Settings) -> None:
         raise Failure(f"{whose}: frame '{frame}' is not the table's, '{settings.frame}'")
 
 
-def _check_ids(objects: list[Disc], settings: Settings) -> None:
+def _check_ids(objects: list[Disc]) -> None:
     names = [each["id"] for each in objects]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise Failure(f"several objects have one id: {', '.join(twice)}")
-    if settings.target not in names:
-        raise Failure(f"the target '{settings.target}' is not on the table")
 
 
 def _table(planning_scene: PlanningScene, settings: Settings) -> tuple[Rectangle, float]:
@@ -137,7 +179,8 @@ def _table(planning_scene: PlanningScene, settings: Settings) -> tuple[Rectangle
     return rectangle, footprint.top
 
 
-def _detected(detections: Detection3DArray, settings: Settings) -> Iterator[tuple[str, Footprint]]:
+def _detected(detections: Detection3DArray, settings: Settings) -> Iterator[tuple[str, str, Footprint]]:
+    """Name, class and footprint of each."""
     for index, detection in enumerate(detections.detections):
         kind = _class(detection)
         # The index holds for one message only, and so does a name made of it.
@@ -147,9 +190,9 @@ def _detected(detections: Detection3DArray, settings: Settings) -> Iterator[tupl
         placement = Placement.of(detection.bbox.center, name)
         x, y, z = detection.bbox.size.x, detection.bbox.size.y, detection.bbox.size.z
         if kind in settings.round_classes:
-            yield name, cylinder(placement, max(x, y) / 2, z, name)
+            yield name, kind, cylinder(placement, max(x, y) / 2, z, name)
         else:
-            yield name, box(placement, (x, y, z), name)
+            yield name, kind, box(placement, (x, y, z), name)
 
 
 def _class(detection: Detection3D) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from moveit_msgs.msg import CollisionObject, PlanningScene, PlanningSceneWorld
 from shape_msgs.msg import SolidPrimitive
@@ -12,6 +14,10 @@ from singulate_ros.settings import Settings
 
 HEADER = Header(frame_id="world")
 SETTINGS = Settings(target="cup", fingers=3, finger_width=0.02, clearance=0.05, tool_z=0.92)
+# The same cell with a tray for two plates.
+DROPPING = replace(
+    SETTINGS, drop_offs=["tray"], drop_off_capacities=[2], drop_off_classes=["plate bowl"], drop_z=1.0
+)
 
 
 def pose(x: float, y: float, z: float, orientation: Quaternion | None = None) -> Pose:
@@ -40,6 +46,13 @@ def table(orientation: Quaternion | None = None) -> CollisionObject:
 
 def vase() -> CollisionObject:
     return solid("vase", SolidPrimitive.CYLINDER, [0.3, 0.05], pose(0.44, 0.16, 0.9))
+
+
+def tray() -> CollisionObject:
+    """Beside the table: a floor and a rim, so that the middle of both is not that of either."""
+    floor = solid("tray", SolidPrimitive.BOX, [0.3, 0.2, 0.02], pose(1.2, 0.25, 0.5))
+    rim = SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[0.01, 0.2, 0.05])
+    return replace(floor, primitives=[*floor.primitives, rim], primitive_poses=[Pose(), pose(0.1, 0.2, 0.0)])
 
 
 def planning_scene(*objects: CollisionObject) -> PlanningScene:

@@ -48,6 +48,7 @@ def test_the_messages_of_the_example_give_the_scene_of_the_example() -> None:
         {"id": "vase", "x": 0.44, "y": 0.16, "radius": 0.05, "fixed": True},
     ]
     assert (scene["target"], scene["settings"]) == ("cup", {"time_limit_ms": 1000})
+    assert "goal" not in scene and "drop_offs" not in scene
 
 
 def test_a_tolerance_for_overlaps_goes_with_the_scene_where_one_is_set() -> None:

@@ -16,7 +16,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Pose
 from std_msgs.msg import Header
-from table import SETTINGS, detections, planning_scene, table, vase
+from table import DROPPING, SETTINGS, detections, planning_scene, table, tray, vase
 
 from singulate_ros import service
 from singulate_ros.failure import Failure
@@ -25,7 +25,12 @@ from singulate_ros.planning import plan
 from singulate_ros.settings import Settings
 
 SCENE = to_scene(detections(), planning_scene(table(), vase()), SETTINGS)
-GRASPABLE: dict[str, Any] = {"verdict": "graspable", "relocations": [], "target_grasp": {"yaw": 0.25}}
+GRASPABLE: dict[str, Any] = {
+    "verdict": "graspable",
+    "target": "cup",
+    "relocations": [],
+    "target_grasp": {"yaw": 0.25},
+}
 Reply = tuple[int, dict[str, str], str]
 GOOD: Reply = (200, {}, json.dumps(GRASPABLE))
 BUSY: Reply = (503, {"retry-after": "7"}, '{"title": "Overloaded"}')
@@ -179,7 +184,12 @@ def test_messages_become_poses_by_way_of_the_service(monkeypatch: pytest.MonkeyP
         poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time, Pose)
     assert (stage.bodies, stage.keys) == ([SCENE], ["Bearer sgl_key"])
     assert [(pose.position.x, pose.position.y, pose.position.z) for pose in poses] == [(0.4, 0.25, 0.92)]
-    assert words == "grasp"
+    assert words == "grasp cup"
+
+
+def test_nobody_is_asked_where_all_that_was_wanted_is_away() -> None:
+    away = replace(DROPPING, target="", all_of=["plate-7"])
+    assert plan(detections(), planning_scene(table(), tray()), away, Time, Pose) == ([], "all taken away")
 
 
 def test_a_tool_of_no_known_height_is_not_sent_anywhere() -> None:
