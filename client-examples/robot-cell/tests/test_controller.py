@@ -34,6 +34,21 @@ RELOCATE: dict[str, Any] = {
     "needed": None,
     "warnings": [],
 }
+DROP: dict[str, Any] = {
+    "action": "pick_drop",
+    "object": "plate",
+    "from": {"x": 0.56, "y": 0.35},
+    "grasp": {"yaw": 0.0},
+    "drop_off": "tray",
+}
+AWAY: dict[str, Any] = {**RELOCATE, "target": None, "relocations": [DROP], "target_grasp": None}
+PARTLY: dict[str, Any] = {
+    **AWAY,
+    "verdict": "partly_cleared",
+    "left": ["cup"],
+    "stuck": {"blocked": ["cup", "vase"], "core": ["cup", "vase"]},
+    "proven": False,
+}
 GRASPABLE = {**RELOCATE, "verdict": "graspable", "relocations": [], "cost": 0}
 
 
@@ -41,11 +56,16 @@ class StillCell:
     """Carries out nothing, and remembers what it should have."""
 
     def __init__(self) -> None:
-        self.world = build(scene(("cup", 0.4, 0.35), ("plate", 0.56, 0.35)), Gantry(TABLE))
+        table = scene(("cup", 0.4, 0.35), ("plate", 0.56, 0.35))
+        self.world = build({**table, "drop_offs": [{"id": "tray"}]}, Gantry(TABLE))
         self.done: list[str] = []
 
     def relocate(self, name: str, _grasp: Spot, _release: Spot) -> Outcome:
         self.done.append(f"relocate {name}")
+        return Outcome(name)
+
+    def take_away(self, name: str, _grasp: Spot, drop_off: str) -> Outcome:
+        self.done.append(f"take {name} to {drop_off}")
         return Outcome(name)
 
     def take(self, name: str, _grasp: Spot) -> Outcome:
@@ -99,6 +119,33 @@ def test_a_verdict_without_a_plan_ends_the_episode_and_says_why() -> None:
     assert (episode.end, episode.detail, cell.done) == ("no_space", "plate would have to go", [])
 
 
+def test_what_is_taken_away_ends_with_its_last_step() -> None:
+    for tolerance in (None, 0.006):
+        episode, cell, asked = run(AWAY, position_tolerance=tolerance)
+        assert (episode.end, cell.done, asked) == ("all_away", ["take plate to tray"], ["/v1/plans"])
+
+
+def test_a_clearing_ends_with_what_is_left() -> None:
+    episode, cell, _ = run(PARTLY)
+    assert (episode.end, cell.done) == ("partly_cleared", ["take plate to tray"])
+    assert episode.detail == "cup left, as far as is known; cup, vase hold each other"
+    episode, cell, _ = run({**PARTLY, "relocations": [], "stuck": None, "proven": True})
+    assert (episode.end, episode.detail, cell.done) == ("partly_cleared", "cup left", [])
+    assert run({**AWAY, "verdict": "cleared"})[0].end == "cleared"
+
+
+def test_a_target_is_grasped_after_what_was_in_its_way_is_taken_away() -> None:
+    episode, cell, asked = run({**RELOCATE, "relocations": [DROP]}, GRASPABLE)
+    assert (episode.end, cell.done) == ("in_hand", ["take plate to tray", "take cup"])
+
+
+def test_a_drop_off_that_accepts_what_is_away_is_no_fault_and_an_unknown_one_is_refused() -> None:
+    gone = {**AWAY, "warnings": [{"code": "unknown_object", "pointer": "/drop_offs/0/accepts/1"}]}
+    assert run(gone)[0].end == "all_away"
+    episode, cell, _ = run({**AWAY, "relocations": [{**DROP, "drop_off": "shelf"}]})
+    assert (episode.end, cell.done) == ("refused", [])
+
+
 def test_more_time_is_asked_for_once() -> None:
     late = {**GRASPABLE, "verdict": "timed_out", "cost": None}
     assert run(late, GRASPABLE)[0].end == "in_hand"
@@ -131,7 +178,7 @@ def test_a_scene_that_is_refused_is_looked_at_again() -> None:
 
 def test_unknown_verdicts_and_actions_and_faulty_plans_are_refused() -> None:
     unknown = {**RELOCATE, "relocations": [{**STEP, "action": "push"}]}
-    faulty = {**RELOCATE, "warnings": [{"code": "release_blocked"}]}
+    faulty = {**RELOCATE, "warnings": [{"code": "release_blocked", "pointer": "/objects/1"}]}
     assert run({**GRASPABLE, "verdict": "perhaps"})[0].end == "refused"
     assert run(unknown)[0].end == "refused"
     assert run(faulty)[0].end == "refused"

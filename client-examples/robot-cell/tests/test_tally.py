@@ -27,6 +27,11 @@ def test_a_hit_by_anything_in_the_hand_is_no_success() -> None:
     assert not is_success(episode("lost", step()))
 
 
+def test_a_goal_is_reached_with_a_target_in_the_hand_or_with_what_can_go_at_the_drop_offs() -> None:
+    for end in ("in_hand", "all_away", "cleared", "partly_cleared"):
+        assert is_success(episode(end, step())) and not is_success(episode(end, step(dropped=True)))
+
+
 def test_a_touch_and_a_press_of_the_closing_hand_are_a_success_but_not_clean() -> None:
     for met in (contact("descent", "finger", touch=True), contact("closing", "dish", touch=False)):
         assert is_success(episode("in_hand", step(met))) and not is_clean(episode("in_hand", step(met)))

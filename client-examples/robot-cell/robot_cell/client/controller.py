@@ -1,4 +1,4 @@
-"""The controller of a cell: look, ask, carry out one step, look again, until the target is in the hand."""
+"""The controller of a cell: look, ask, carry out one step, look again, until the goal is reached."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -14,7 +14,7 @@ PICTURES = 5
 """How often the camera looks again where its errors make a scene that the service refuses."""
 ROUNDS_WITHOUT_PROGRESS = 3
 WITHOUT_PLAN = {"deadlock", "no_space", "timed_out"}
-ACTIONS = {"pick_place"}
+WITH_PLAN = {"relocate", "graspable", "cleared", "partly_cleared"}
 FAULTS = {
     "unknown_object",
     "fixed_object_moved",
@@ -37,7 +37,7 @@ WRONG_UNITS = {"out_of_proportion", "wide_yaw_tolerance"}
 
 @dataclass
 class Episode:
-    """How an episode ended: `in_hand`, a verdict without a plan, `out_of_reach`, `no_path`, `refused`, `no_progress`,
+    """How an episode ended: `in_hand`, `all_away`, `cleared`, `partly_cleared`, a verdict without a plan, `out_of_reach`, `no_path`, `refused`, `no_progress`,
     `lost` (something was dropped while the target was lifted)."""
 
     end: str = ""
@@ -111,15 +111,13 @@ class Controller:
             if verdict in WITHOUT_PLAN:
                 episode.detail = _reason(plan)
                 return str(verdict)
-            if verdict not in ("relocate", "graspable"):
+            if verdict not in WITH_PLAN:
                 raise Refused(200, {"title": f"unknown verdict '{verdict}'"})
             costs.append(len(plan["relocations"]))
             if _stuck(costs):
                 return "no_progress"
             if not plan["relocations"]:
-                outcome = self._cell.take(plan["target"], _seen(scene, plan["target"], plan["target_grasp"]["yaw"]))
-                self._note(episode, outcome)
-                return outcome.failure or ("lost" if outcome.dropped else "in_hand")
+                return self._finish(episode, scene, plan)
             outcome = self._carry_out(scene, plan["relocations"][0])
             self._note(episode, outcome)
             if outcome.failure:
@@ -127,18 +125,35 @@ class Controller:
             self._left = {**plan, "relocations": plan["relocations"][1:]}
         return "no_progress"
 
+    def _finish(self, episode: Episode, scene: Scene, plan: Body) -> str:
+        """The end of a plan without steps: the grasp, where a target is wanted."""
+        if plan["target_grasp"]:
+            outcome = self._cell.take(plan["target"], _seen(scene, plan["target"], plan["target_grasp"]["yaw"]))
+            self._note(episode, outcome)
+            return outcome.failure or ("lost" if outcome.dropped else "in_hand")
+        if plan["verdict"] == "partly_cleared":
+            episode.detail = _remains(plan)
+        return str(plan["verdict"]) if plan["verdict"] in ("cleared", "partly_cleared") else "all_away"
+
     def _note(self, episode: Episode, outcome: Outcome) -> None:
         episode.outcomes.append(outcome)
         episode.detail = outcome.detail
 
     def _carry_out(self, scene: Scene, step: Body) -> Outcome:
-        if step["action"] not in ACTIONS:
-            raise Refused(200, {"title": f"unknown action '{step['action']}'"})
-        release = Spot(step["to"]["x"], step["to"]["y"], step["release"]["yaw"])
-        return self._cell.relocate(step["object"], _seen(scene, step["object"], step["grasp"]["yaw"]), release)
+        name, action = step["object"], step["action"]
+        if action == "pick_place":
+            release = Spot(step["to"]["x"], step["to"]["y"], step["release"]["yaw"])
+            return self._cell.relocate(name, _seen(scene, name, step["grasp"]["yaw"]), release)
+        if action == "pick_drop":
+            if step["drop_off"] not in {drop_off["id"] for drop_off in scene["drop_offs"]}:
+                raise Refused(200, {"title": f"unknown drop-off '{step['drop_off']}'"})
+            return self._cell.take_away(name, _seen(scene, name, step["grasp"]["yaw"]), step["drop_off"])
+        raise Refused(200, {"title": f"unknown action '{action}'"})
 
     def _next_plan(self, episode: Episode) -> tuple[Scene, Body]:
         scene = self._camera.look()
+        if self._left is not None and _is_done(self._left):
+            return scene, self._left
         if self._left is not None and self._tolerance is not None:
             try:
                 answer = self._service.verify(scene, self._left, self._tolerance)
@@ -150,7 +165,7 @@ class Controller:
                     return scene, self._left
         scene, plan = self._plan(scene)
         episode.service_seconds += sum(plan.get("statistics", {}).values()) / 1000
-        codes = {warning["code"] for warning in plan["warnings"]}
+        codes = {warning["code"] for warning in plan["warnings"] if not _is_of_drop_off(warning)}
         episode.faulty_plans += bool(codes & FAULTS)
         if bad := codes & (WRONG_UNITS if self._trusting else WRONG_UNITS | FAULTS):
             raise Refused(200, {"title": f"a plan with the warnings {sorted(bad)}"})
@@ -185,6 +200,21 @@ def _reason(plan: Body) -> str:
     if plan["deadlock"]:
         return f"{', '.join(plan['deadlock']['core'])} hold each other"
     return f"{', '.join(plan['needed'])} would have to go" if plan["needed"] else ""
+
+
+def _is_of_drop_off(warning: Body) -> bool:
+    """Such as that a drop-off accepts what was taken away before, whose code is also that of a fault of a plan."""
+    return str(warning["pointer"]).startswith("/drop_offs")
+
+
+def _remains(plan: Body) -> str:
+    words = f"{', '.join(plan['left'])} left" + ("" if plan["proven"] else ", as far as is known")
+    return words + (f"; {', '.join(plan['stuck']['core'])} hold each other" if plan["stuck"] else "")
+
+
+def _is_done(plan: Body) -> bool:
+    """Whether nothing is left to do. There is no asking either: the drop-offs may be full, and no wanted dish be left."""
+    return not plan["relocations"] and not plan["target_grasp"]
 
 
 def _stuck(costs: list[int]) -> bool:

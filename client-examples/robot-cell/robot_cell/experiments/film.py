@@ -9,7 +9,7 @@ from PIL import Image
 
 from ..client.service import Service
 from ..physics.judge import Phase
-from ..physics.world import World, dish
+from ..physics.world import Scene, World, dish
 from . import Figures, own_scene
 from .episodes import Task, run
 from .server import generate
@@ -78,7 +78,7 @@ class Film:
         self._next = 0.0
 
     def see(self, world: World, phase: Phase, name: str) -> None:
-        """Takes a frame where one is due. The dish that the step is about is orange, the target red."""
+        """Takes a frame where one is due. The dish that the step is about is orange, what is wanted red."""
         if world.data.time < self._next:
             return
         if self._renderer is None:
@@ -93,16 +93,27 @@ class Film:
         frames[0].save(path, save_all=True, append_images=frames[1:], duration=1000 // RATE, loop=0, optimize=True)
 
     def _colour(self, world: World, name: str) -> None:
+        wanted = _wanted(world.scene)
         for item in world.scene["objects"]:
             grey = [0.35, 0.35, 0.35, 1] if item.get("fixed") else [0.93, 0.93, 0.9, 1]
-            colour = RED if item["id"] == world.scene["target"] else ORANGE if item["id"] == name else grey
+            colour = RED if item["id"] in wanted else ORANGE if item["id"] == name else grey
             world.model.geom(dish(item["id"])).rgba = colour
+
+
+def _wanted(scene: Scene) -> list[str]:
+    """The ids that the goal names."""
+    goal = scene.get("goal", {})
+    named: list[str] = goal.get("any_of", []) + goal.get("all_of", [])
+    return [scene["target"]] if "target" in scene else named
 
 
 def _camera(world: World) -> mujoco.MjvCamera:
     table = world.scene["table"]
+    corners = [(table["x_min"], table["y_min"]), (table["x_max"], table["y_max"])]
+    seen = np.array([*corners, *world.drop_offs.values()])
+    low, high = seen.min(axis=0), seen.max(axis=0)
     camera = mujoco.MjvCamera()
-    camera.lookat = np.array([(table["x_min"] + table["x_max"]) / 2, (table["y_min"] + table["y_max"]) / 2, 0.05])
-    camera.distance = 1.4 * max(table["x_max"] - table["x_min"], table["y_max"] - table["y_min"])
+    camera.lookat = np.array([*(low + high) / 2, 0.05])
+    camera.distance = 1.4 * max(high - low)
     camera.azimuth, camera.elevation = -62, -40
     return camera

@@ -43,14 +43,28 @@ def read(path: Path, url: str) -> Scene:
         raise ValueError(f"{path} is no JSON: {error}") from error
     with Service(url) as service:
         service.plan(asked_for(scene))
+    if not scene["objects"]:
+        raise ValueError("there is nothing on the table")
     if any("\0" in item["id"] for item in scene["objects"]):
         raise ValueError("the simulator takes no id with U+0000 in it")
     return scene
 
 
+STATUSES = {
+    "in_hand": 0,
+    "all_away": 0,
+    "cleared": 0,
+    "refused": 2,
+    "deadlock": 3,
+    "no_space": 4,
+    "timed_out": 5,
+    "partly_cleared": 7,
+}
+
+
 def status(figures: Figures) -> int:
     """The exit status, as that of the other client examples."""
-    return {"in_hand": 0, "refused": 2, "deadlock": 3, "no_space": 4, "timed_out": 5}.get(figures["end"], 1)
+    return STATUSES.get(figures["end"], 1)
 
 
 def text(figures: Figures) -> str:
@@ -61,7 +75,8 @@ def text(figures: Figures) -> str:
 
 def _line(step: Figures) -> str:
     place = step["place_error"]
-    done = "lifted" if place is None else f"moved, {1e3 * place:.2f} mm off its place"
+    done = f"taken away to {step['drop_off']}" if step["drop_off"] else "moved"
+    done = "lifted" if place is None else f"{done}, {1e3 * place:.2f} mm off its place"
     what = step["failure"].replace("_", " ") or done
     words = [f"{step['object']}: {what}, {step['seconds']:.1f} s"]
     for contact in step["contacts"]:

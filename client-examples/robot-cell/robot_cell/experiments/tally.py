@@ -7,6 +7,8 @@ from .interval import wilson
 
 APART = ("deadlock", "no_space", "out_of_reach")
 """Ends that are no fault of the plan or of the robot, as long as nothing was hit or dropped before."""
+REACHED = ("in_hand", "all_away", "cleared", "partly_cleared")
+"""Ends at which all was carried out that a plan asks for."""
 Episode = dict[str, Any]
 
 
@@ -35,8 +37,8 @@ def is_judged(episode: Episode) -> bool:
 
 
 def is_success(episode: Episode) -> bool:
-    """The target in the hand, nothing hit, nothing dropped."""
-    return episode["end"] == "in_hand" and not went_wrong(episode)
+    """The target in the hand, or at the drop-offs what can go; nothing hit, nothing dropped."""
+    return episode["end"] in REACHED and not went_wrong(episode)
 
 
 def is_clean(episode: Episode) -> bool:

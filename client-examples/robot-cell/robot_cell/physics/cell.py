@@ -22,6 +22,8 @@ REST = 0.1
 SLIPPED, TILTED = 0.005, 0.1
 """A dish that has moved or leans so far in the hand is dropped, m and rad. So is one that is pushed over the table's edge."""
 
+ARRIVED = 0.05
+"""A dish that stands so near to the middle of its drop-off has arrived, m. One that was lost on the way has not."""
 
 Watcher = Callable[[World, Phase, str], None]
 """Sees the world, the phase and the dish that the step is about after each step of the physics."""
@@ -35,6 +37,8 @@ class Outcome:
     contacts: list[Contact] = field(default_factory=list)
     disturbed: dict[str, float] = field(default_factory=dict)
     """Dishes that the step was not about, and how far their foot or their top has moved, m."""
+    drop_off: str = ""
+    """Where the dish was to be taken, if it was to leave the table."""
     dropped: bool = False
     place_error: float | None = None
     """Between where the dish was to be and where it is, m."""
@@ -47,6 +51,7 @@ class Outcome:
     def to_json(self) -> dict[str, object]:
         return {
             "object": self.name,
+            "drop_off": self.drop_off,
             "contacts": [contact.to_json() for contact in self.contacts],
             "disturbed": self.disturbed,
             "dropped": self.dropped,
@@ -72,7 +77,7 @@ class Cell:
     def __init__(self, world: World, watch: Watcher | None = None) -> None:
         self.world = world
         self.judge = Judge(world)
-        self._opening = world.hand.open_for(min(item["radius"] for item in world.scene["objects"]))
+        self._opening = world.open_round(min(item["radius"] for item in world.scene["objects"]))
         world.hand.command(world.data, self._opening)
         self._up = world.tallest + ABOVE + GRASP_HEIGHT
         self._watch = watch
@@ -82,15 +87,19 @@ class Cell:
 
     def relocate(self, name: str, grasp: Spot, release: Spot) -> Outcome:
         """Picks the dish up at `grasp` and sets it down at `release`."""
-        return self._carry_out(name, grasp, release)
+        return self._carry_out(Outcome(name), grasp, release)
+
+    def take_away(self, name: str, grasp: Spot, drop_off: str) -> Outcome:
+        """Picks the dish up at `grasp` and sets it down at the drop-off, where it is taken out of the world."""
+        return self._carry_out(Outcome(name, drop_off=drop_off), grasp, Spot(*self.world.drop_offs[drop_off], grasp.yaw))
 
     def take(self, name: str, grasp: Spot) -> Outcome:
         """Lifts the target."""
-        return self._carry_out(name, grasp, None)
+        return self._carry_out(Outcome(name), grasp, None)
 
-    def _carry_out(self, name: str, grasp: Spot, release: Spot | None) -> Outcome:
-        outcome, began = Outcome(name), float(self.world.data.time)
-        self.judge.start(name)
+    def _carry_out(self, outcome: Outcome, grasp: Spot, release: Spot | None) -> Outcome:
+        began = float(self.world.data.time)
+        self.judge.start(outcome.name)
         try:
             self._step(outcome, grasp, release)
         except OutOfReach as reason:
@@ -110,11 +119,14 @@ class Cell:
         if release:
             self._set_down(name, release)
             outcome.place_error = float(np.hypot(*(self.world.place(name)[:2] - (release.x, release.y))))
+        if outcome.drop_off and (outcome.place_error or 0.0) < ARRIVED:
+            self.world.take_away(name, outcome.drop_off)
+            del self._stood[name]
 
     def _pick(self, name: str, grasp: Spot) -> Vector:
         """Grasps and lifts the dish. The result is where it stood in the hand before."""
         hand, radius = self.world.hand, self.world.radius(name)
-        self._open_to(hand.open_for(radius), Phase.TRAVEL, name)
+        self._open_to(self.world.open_round(radius), Phase.TRAVEL, name)
         self._travel(grasp, None, Phase.TRAVEL, name)
         self._line(grasp.at(self._low(name)), Phase.DESCENT, name)
         self._open_to(hand.closed_on(radius), Phase.CLOSING, name)
@@ -124,7 +136,7 @@ class Cell:
 
     def _set_down(self, name: str, release: Spot) -> None:
         self._line(release.at(self._low(name)), Phase.CARRYING, name)
-        self._open_to(self.world.hand.open_for(self.world.radius(name)), Phase.RELEASE, name)
+        self._open_to(self.world.open_round(self.world.radius(name)), Phase.RELEASE, name)
         self._line(release.at(self._up), Phase.ASCENT, name)
 
     def _judge(self, outcome: Outcome) -> None:
@@ -135,7 +147,8 @@ class Cell:
         moved = {name: float(np.max(np.linalg.norm(now[name] - stood, axis=1))) for name, stood in self._stood.items()}
         outcome.disturbed = {name: way for name, way in moved.items() if way > DISTURBANCE and name != outcome.name}
         for name in (outcome.name, *outcome.disturbed):
-            self._stood[name] = now[name]
+            if name in now:
+                self._stood[name] = now[name]
         outcome.dropped |= any(self._is_off_table(stand[0]) for stand in now.values())
         outcome.contacts = self.judge.found()
 

@@ -1,5 +1,6 @@
 """A scene of the service as a world of MuJoCo: the table, its dishes, a hand and what carries it."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -7,6 +8,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from . import drop_offs
 from .centric_hand import PALM_ABOVE, CentricHand
 from .hand import Hand
 from .mechanism import Mechanism
@@ -41,10 +43,13 @@ class World:
     hand: Hand
     mechanism: Mechanism
     dishes: dict[str, int] = field(init=False)
-    """Body of each dish."""
+    """Body of each dish on the table."""
+    drop_offs: dict[str, tuple[float, float]] = field(init=False)
+    """Where each drop-off is, m."""
 
     def __post_init__(self) -> None:
         self.dishes = {item["id"]: self.model.body(dish(item["id"])).id for item in self.scene["objects"]}
+        self.drop_offs = drop_offs.places(self.scene)
 
     def place(self, name: str) -> Vector:
         """Where a dish stands: x, y, z of its centre's foot, m."""
@@ -60,6 +65,18 @@ class World:
 
     def radius(self, name: str) -> float:
         return float(next(item["radius"] for item in self.scene["objects"] if item["id"] == name))
+
+    def take_away(self, name: str, drop_off: str) -> None:
+        """Takes a dish that stands at its drop-off out of the scene, and out of the way of the next one."""
+        self.scene = drop_offs.without(self.scene, name, drop_off)
+        del self.dishes[name]
+        joint = self.data.joint(dish(name))
+        joint.qpos[:] = drop_offs.FAR_AWAY * (1 + joint.id), 0, 0, 1, 0, 0, 0
+        joint.qvel[:] = 0
+
+    def open_round(self, radius: float) -> float:
+        """The hand's opening before it grasps a dish of this radius, m."""
+        return self.hand.open_for(opens_for(self.scene["gripper"], radius))
 
     @property
     def tallest(self) -> float:
@@ -91,6 +108,7 @@ def build(scene: Scene, mechanism: Mechanism) -> World:
     _set_options(spec)
     _light(spec, scene["table"])
     _add_table(spec, scene["table"])
+    drop_offs.add_to(spec, scene)
     for item in scene["objects"]:
         _add_dish(spec, item)
     hand = hand_for(scene)
@@ -112,8 +130,14 @@ def hand_for(scene: Scene) -> Hand:
     if gripper["fingers"] == 2:
         return Robotiq(gripper, tallest)
     length = _length(gripper, "finger_length", tallest + PALM_ABOVE)
-    reach = max(item["radius"] for item in scene["objects"]) + gripper["clearance"]
+    radii = [item["radius"] for item in scene["objects"] if 2 * item["radius"] <= gripper.get("max_opening", math.inf)]
+    reach = max((opens_for(gripper, radius) for radius in radii), default=0.0) + gripper["clearance"]
     return CentricHand(int(gripper["fingers"]), gripper["finger_width"], gripper["clearance"], length, reach)
+
+
+def opens_for(gripper: dict[str, Any], radius: float) -> float:
+    """The radius that the hand opens for, m: that of the dish, or always the greatest."""
+    return gripper["max_opening"] / 2 if gripper.get("opening") == "full" else radius
 
 
 def _set_options(spec: mujoco.MjSpec) -> None:
