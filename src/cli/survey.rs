@@ -16,7 +16,7 @@ use singulate_planner::plan::survey;
 /// The arguments of `survey`.
 #[derive(Debug, Args)]
 pub(super) struct Survey {
-    /// The scene; `-` reads stdin. Its target does not change the answer
+    /// The scene; `-` reads stdin. Its target or goal does not change the answer
     scene: PathBuf,
     /// json: the answer of POST /v1/survey, for programs; text: for people
     #[arg(long, value_enum, default_value_t)]

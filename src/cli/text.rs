@@ -1,22 +1,22 @@
 //! Answers for humans: the steps and the reasons.
 
-use core::time::Duration;
-use std::collections::HashSet;
+mod why;
 
+use core::time::Duration;
+
+use self::why::{no_proof, so_far, why_least, why_left, why_never};
 use super::table::{Column, table};
-use crate::render::headline;
+use crate::render::{fills, goal, headline};
 use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
-use singulate_planner::cost::Cost;
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
-use singulate_planner::scene::{Object, Pose, Scene};
-use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use singulate_planner::scene::{Pose, Scene};
+use singulate_planner::statement::{PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 /// The most ids in one sentence.
 const MANY: usize = 40;
-
-/// Added to `no_space`.
-const NO_PROOF: &str = "This is not a proof: only the places that were tried do not suffice.\n";
+/// So many drop-offs are all told; of more only those that are used.
+const FEW: usize = 8;
 
 /// The text with control characters made visible: an id must not move the cursor, forge a line, or turn it round.
 pub(super) fn plain(text: &str) -> String {
@@ -30,19 +30,21 @@ pub(super) fn plain(text: &str) -> String {
 /// The answer to a planning request.
 pub(super) fn answer(request: &PlanRequest, judged: &Judged) -> String {
     let scene = &request.scene;
-    let name = |id: &String| format!(" in scene {}", plain(id));
-    let place = request.scene_id.as_ref().map(name).unwrap_or_default();
-    let target = scene.target().map(|target| plain(scene.object(target).id())).unwrap_or_default();
     let Judged { answer: Answer { statement, statistics }, .. } = judged;
-    let mut paragraphs = vec![format!("{}\ntarget: {target}{place}\n", headline(judged))];
+    let mut paragraphs = vec![format!("{}\n{}", plain(&headline(scene, judged)), aim(request, statement))];
     paragraphs.extend(match statement.verdict {
-        Some(Verdict::Graspable) => vec![last_grasp("Grasp", &target, statement)],
-        Some(Verdict::Relocate) => vec![steps(&target, statement), why_least(statement)],
-        Some(Verdict::Cleared | Verdict::PartlyCleared) => vec![steps(&target, statement)],
+        Some(Verdict::Graspable) => vec![last_grasp("Grasp", scene, statement)],
+        Some(Verdict::Relocate) => {
+            vec![steps(statement), last_grasp("Then grasp", scene, statement), why_least(scene, statement)]
+        }
+        Some(Verdict::Cleared | Verdict::PartlyCleared) if statement.steps().is_empty() => why_left(scene, statement),
+        Some(Verdict::Cleared | Verdict::PartlyCleared) => {
+            [vec![steps(statement)], why_left(scene, statement)].concat()
+        }
         // Without a proof, headline and warnings say everything.
         Some(Verdict::Deadlock) => statement.deadlock.iter().map(|deadlock| why_never(scene, deadlock)).collect(),
-        Some(Verdict::NoSpace) => vec![so_far(statement), NO_PROOF.to_owned()],
-        Some(Verdict::TimedOut) => vec![so_far(statement)],
+        Some(Verdict::NoSpace) => vec![so_far(scene, statement), no_proof(scene).to_owned()],
+        Some(Verdict::TimedOut) => vec![so_far(scene, statement)],
         None => Vec::new(),
     });
     paragraphs.push(
@@ -56,36 +58,74 @@ pub(super) fn answer(request: &PlanRequest, judged: &Judged) -> String {
     paragraphs.join("\n")
 }
 
-fn last_grasp(verb: &str, target: &str, statement: &Statement) -> String {
-    statement.target_grasp.map(|grasp| format!("{verb} {target} at yaw {}.\n", yaw(grasp))).unwrap_or_default()
+/// What is wanted, and how full the drop-offs are in the end.
+fn aim(request: &PlanRequest, statement: &Statement) -> String {
+    let scene = &request.scene;
+    let name = |id: &String| format!(" in scene {}", plain(id));
+    let place = request.scene_id.as_ref().map(name).unwrap_or_default();
+    let word = if scene.target().is_some() { "target" } else { "goal" };
+    format!("{word}: {}{place}\n{}", plain(&goal(scene, MANY)), drop_offs(scene, statement))
 }
 
-fn steps(target: &str, statement: &Statement) -> String {
-    let columns = [
-        Column::right("#"),
-        Column::left("object"),
-        Column::right("from (m)"),
-        Column::left(""),
-        Column::right("to (m)"),
-        Column::right("grasp yaw"),
-        Column::right("release yaw"),
-        Column::right("gap"),
-    ];
-    let rows = statement.steps().iter().enumerate().map(|(at, step)| match step {
-        Step::PickPlace(PickPlace { object, from, to, grasp, release, gap }) => {
-            let gap = gap.map(|gap| format!("{:.1} mm", gap * 1e3)).unwrap_or_default();
-            let from = from.map(point).unwrap_or_default();
-            let (object, arrow) = (plain(object), "→".to_owned());
-            vec![(at + 1).to_string(), object, from, arrow, point(*to), yaw(*grasp), yaw(*release), gap]
-        }
-        Step::PickDrop(PickDrop { object, from, grasp, drop_off }) => {
-            let from = from.map(point).unwrap_or_default();
-            let arrow = "→".to_owned();
-            let place = plain(drop_off);
-            vec![(at + 1).to_string(), plain(object), from, arrow, place, yaw(*grasp), String::new(), String::new()]
-        }
+/// Those that are used; all of a few.
+fn drop_offs(scene: &Scene, statement: &Statement) -> String {
+    let fills = fills(scene, statement);
+    if fills.is_empty() {
+        return String::new();
+    }
+    let told = fills.iter().filter(|fill| fills.len() <= FEW || fill.held > 0).take(MANY);
+    let told: Vec<String> = told.map(|fill| format!("{} ({})", plain(fill.id), fill.amount())).collect();
+    let more = match (told.len(), fills.len() - told.len()) {
+        (_, 0) => String::new(),
+        (0, count) => format!("{count}, none used"),
+        (_, more) => format!(" and {more} more"),
+    };
+    format!("drop-offs: {}{more}\n", told.join(", "))
+}
+
+fn last_grasp(verb: &str, scene: &Scene, statement: &Statement) -> String {
+    let chosen = scene.target().map(|target| scene.object(target).id()).or(statement.target.as_deref());
+    let grasp = statement.target_grasp.zip(chosen);
+    grasp.map(|(grasp, target)| format!("{verb} {} at yaw {}.\n", plain(target), yaw(grasp))).unwrap_or_default()
+}
+
+/// The steps as a table, without columns that none of them fills.
+fn steps(statement: &Statement) -> String {
+    let dropped = statement.steps().iter().filter(|step| step.rests_at().is_none()).count();
+    let (all, none) = (dropped == statement.steps().len(), dropped == 0);
+    let mut columns = vec![Column::right("#"), Column::left("object"), Column::right("from (m)"), Column::left("")];
+    columns.extend(match (all, none) {
+        (_, true) => vec![Column::right("to (m)")],
+        (true, _) => vec![Column::left("to")],
+        (false, false) => vec![Column::right("to (m)"), Column::left("drop-off")],
     });
-    format!("{}\n{}", table(&columns, rows), last_grasp("Then grasp", target, statement))
+    columns.push(Column::right("grasp yaw"));
+    if !all {
+        columns.extend([Column::right("release yaw"), Column::right("gap")]);
+    }
+    let rows = statement.steps().iter().enumerate().map(|(at, step)| {
+        let (from, grasp) = match step {
+            Step::PickPlace(step) => (step.from, step.grasp),
+            Step::PickDrop(step) => (step.from, step.grasp),
+        };
+        let from = from.map(point).unwrap_or_default();
+        let mut row = vec![(at + 1).to_string(), plain(step.object()), from, "→".to_owned()];
+        match step {
+            Step::PickPlace(PickPlace { to, release, gap, .. }) => {
+                let gap = gap.map(|gap| format!("{:.1} mm", gap * 1e3)).unwrap_or_default();
+                row.push(point(*to));
+                row.extend((!none).then(String::new));
+                row.extend([yaw(grasp), yaw(*release), gap]);
+            }
+            Step::PickDrop(PickDrop { drop_off, .. }) => {
+                row.extend((!all).then(String::new));
+                row.extend([plain(drop_off), yaw(grasp)]);
+                row.resize(columns.len(), String::new());
+            }
+        }
+        row
+    });
+    table(&columns, rows)
 }
 
 fn point(pose: Pose) -> String {
@@ -98,84 +138,8 @@ fn yaw(StatedGrasp { yaw, slack }: StatedGrasp) -> String {
     format!("{:.1}°{slack}", yaw.to_degrees())
 }
 
-fn why_least(statement: &Statement) -> String {
-    let (Some(cost), Some(least)) = (statement.cost, statement.lower_bound) else {
-        return "Whether fewer relocations suffice is not known.\n".to_owned();
-    };
-    let bound = why_bound(statement);
-    if cost == least {
-        return format!("{bound}So {cost} is the least.\n");
-    }
-    let (needed, whether) = if least == Cost::ZERO {
-        (String::new(), "Whether")
-    } else {
-        (format!("{bound}So {least} or more are needed; "), "whether")
-    };
-    format!("{needed}{whether} fewer than {cost} suffice is not known.\n")
-}
-
-/// The landmarks as sentences.
-fn why_bound(statement: &Statement) -> String {
-    let landmarks = statement.landmarks.as_deref().unwrap_or_default();
-    let (single, several): (Vec<_>, Vec<_>) = landmarks.iter().partition(|set| set.len() == 1);
-    let single: Vec<String> = single.into_iter().flatten().cloned().collect();
-    let mut lines = if single.is_empty() { String::new() } else { format!("Every plan moves: {}\n", ids(&single)) };
-    for set in &several {
-        lines += &format!("Every plan moves at least one of: {}\n", ids(set));
-    }
-    if several.len() + usize::from(!single.is_empty()) < 2 {
-        return lines;
-    }
-    let count = statement.lower_bound.unwrap_or_default();
-    let satisfy = if count == Cost::new(1) { "object satisfies" } else { "objects satisfy" };
-    format!("{lines}No fewer than {count} {satisfy} all of these.\n")
-}
-
-fn ids<S: AsRef<str>>(objects: &[S]) -> String {
+fn ids(objects: &[impl AsRef<str>]) -> String {
     objects.iter().map(|id| plain(id.as_ref())).collect::<Vec<_>>().join(", ")
-}
-
-fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) -> String {
-    let fixed = scene.objects().iter().filter(|object| object.fixed()).map(Object::id);
-    let fixed: HashSet<&str> = fixed.collect();
-    let target = scene.target().map(|target| scene.object(target).id()).unwrap_or_default();
-    let members = core.iter().map(|id| {
-        let part = match (id == target, fixed.contains(id.as_str())) {
-            (true, _) => "the target",
-            (false, true) => "fixed",
-            (false, false) => "",
-        };
-        vec![plain(id), part.to_owned()]
-    });
-    let members = table(&[Column::left("object"), Column::left("")], members);
-    let in_core: HashSet<&str> = core.iter().map(String::as_str).collect();
-    let others: Vec<&String> = blocked.iter().filter(|id| !in_core.contains(id.as_str())).collect();
-    let others = if others.is_empty() {
-        String::new()
-    } else {
-        let more = match others.len().saturating_sub(MANY) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        format!("\nAlso locked: {}{more}\n", ids(&others[..others.len().min(MANY)]))
-    };
-    format!(
-        "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\
-         {members}{others}"
-    )
-}
-
-fn so_far(statement: &Statement) -> String {
-    let needed = match &statement.needed {
-        Some(needed) => format!("Would free the target, moved in this order: {}\n", ids(needed)),
-        None => String::new(),
-    };
-    let bound = match statement.lower_bound {
-        Some(bound) if bound > Cost::ZERO => format!("{}So at least {bound} must move.\n", why_bound(statement)),
-        _ => String::new(),
-    };
-    let gap = if needed.is_empty() || bound.is_empty() { "" } else { "\n" };
-    format!("{needed}{gap}{bound}")
 }
 
 fn times(statistics: &Statistics) -> String {
@@ -187,7 +151,7 @@ fn times(statistics: &Statistics) -> String {
 }
 
 /// The checker's report.
-pub(super) fn verification(body: &VerificationBody) -> String {
+pub(super) fn verification(scene: &Scene, body: &VerificationBody) -> String {
     if body.valid {
         return "valid: all that it states holds\n".to_owned();
     }
@@ -195,7 +159,9 @@ pub(super) fn verification(body: &VerificationBody) -> String {
     let lines: String = body.faults.iter().map(|fault| self::fault(fault) + "\n").collect();
     let again = match body.first_failing_step {
         Some(step) => {
-            format!("Plan again: step {} fails. The grasp of the target counts as the last step.\n", step + 1)
+            let grasped = !scene.goal().candidates().is_empty();
+            let last = if grasped { " The grasp of the target counts as the last step." } else { "" };
+            format!("Plan again: step {} fails.{last}\n", step + 1)
         }
         None if body.replan => "Plan again: time ran out before all steps were replayed.\n".to_owned(),
         None => String::new(),
@@ -228,8 +194,11 @@ pub(super) fn survey(scene: &Scene, entries: &[SurveyEntry]) -> String {
         };
         vec![plain(scene.object(entry.object).id()), verdict.to_owned(), relocations]
     });
-    let note =
-        "The numbers do not consider places. `plan` finds out whether there are places for the relocated objects.\n";
+    let note = if scene.drop_offs().is_empty() {
+        "The numbers do not consider places. `plan` finds out whether there are places for the relocated objects.\n"
+    } else {
+        "The numbers consider neither places nor how much a drop-off takes. `plan` finds out whether there is room.\n"
+    };
     format!("{}\n{note}", table(&columns, rows))
 }
 

@@ -60,7 +60,7 @@ impl Verify {
         let report = check_on(&request.scene, &statement, &terms, &Budget::new(&clock, request.time_limit));
         match self.format {
             Format::Json => terminal::print_json(&VerificationBody::new(&report)),
-            Format::Text => terminal::print(&text::verification(&VerificationBody::new(&report))),
+            Format::Text => terminal::print(&text::verification(&request.scene, &VerificationBody::new(&report))),
         }
     }
 }

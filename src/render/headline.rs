@@ -1,161 +1,120 @@
-//! The verdict as text.
+//! The verdict in one line.
 
-use nalgebra::Point2;
-use svg::node::element::Group;
-
-use super::label;
-use super::paint;
-use super::view::{PADDING, View};
+use super::fill::drops;
+use super::in_words::counted;
 use singulate_planner::cost::Cost;
-use singulate_planner::paper::{Judged, Warning};
-use singulate_planner::scene::Scene;
+use singulate_planner::paper::Judged;
+use singulate_planner::scene::{Destination, Goal, Scene};
 use singulate_planner::statement::{Deadlock, Statement, Step, Verdict};
 
-/// The verdict in one line, without ids.
-pub fn headline(judged: &Judged) -> String {
+/// The verdict in one line. The only id in it is that of a chosen candidate.
+pub fn headline(scene: &Scene, judged: &Judged) -> String {
     let stated = judged.statement();
     match stated.verdict {
         Some(Verdict::Graspable) if judged.faulty() => {
             "graspable: nothing has to move (does not pass its check)".to_owned()
         }
-        Some(Verdict::Graspable) => "graspable: nothing has to move".to_owned(),
-        Some(Verdict::Relocate) if judged.faulty() => format!("{} (does not pass its check)", relocate(stated)),
-        Some(Verdict::Relocate) => format!("{} ({})", relocate(stated), proof(stated)),
-        Some(Verdict::Deadlock) => deadlock(stated),
-        Some(Verdict::NoSpace) => {
-            format!("no space: no place found for what has to move ({})", bound(stated.lower_bound))
-        }
+        Some(Verdict::Graspable) => format!("graspable: {}nothing has to move", chosen(scene, stated, "", ", ")),
+        Some(Verdict::Relocate) if judged.faulty() => format!("{} (does not pass its check)", relocate(scene, stated)),
+        Some(Verdict::Relocate) => format!("{} ({})", relocate(scene, stated), proof(scene, stated)),
+        Some(Verdict::Deadlock) => deadlock(scene, stated),
+        Some(Verdict::NoSpace) => format!("no space: {} ({})", no_space(scene), bound(scene, stated.lower_bound)),
         Some(Verdict::TimedOut) if stated.lower_bound > Some(Cost::ZERO) => {
-            format!("timed out: no plan yet ({})", bound(stated.lower_bound))
+            format!("timed out: no plan yet ({})", bound(scene, stated.lower_bound))
         }
         Some(Verdict::TimedOut) => "timed out: nothing is proven yet".to_owned(),
-        Some(Verdict::Cleared | Verdict::PartlyCleared) => relocate(stated),
+        Some(Verdict::Cleared | Verdict::PartlyCleared) => cleared(stated),
         None => "no verdict".to_owned(),
     }
 }
 
-fn relocate(stated: &Statement) -> String {
+/// The candidate that is chosen, in words; empty for a goal without a choice.
+fn chosen(scene: &Scene, stated: &Statement, before: &str, after: &str) -> String {
+    match (scene.goal(), &stated.target) {
+        (Goal::AnyOf(candidates), Some(id)) => format!("{before}{id}, one of {}{after}", candidates.len()),
+        _ => String::new(),
+    }
+}
+
+fn relocate(scene: &Scene, stated: &Statement) -> String {
     let mut objects: Vec<&str> = stated.steps().iter().map(Step::object).collect();
     objects.sort_unstable();
     objects.dedup();
-    let (steps, moved) = (stated.steps().len(), counted(objects.len() as u64, "object"));
-    if objects.len() == steps {
-        return format!("relocate {moved}");
+    let (steps, count) = (stated.steps().len(), objects.len());
+    if let Goal::AllOf(wanted) = scene.goal() {
+        let wanted = wanted.len();
+        let others = if steps == wanted { String::new() } else { format!(" in {}", counted(steps as u64, "step")) };
+        return format!("take away {}{others}", counted(wanted as u64, "object"));
     }
-    format!("relocate {moved} in {}", counted(steps as u64, "move"))
+    let steps = if count == steps { String::new() } else { format!(" in {}", counted(steps as u64, "move")) };
+    let off_table = match drops(stated).count() {
+        0 => String::new(),
+        dropped if dropped == count => " off the table".to_owned(),
+        dropped => format!(", {dropped} of them off the table"),
+    };
+    let chosen = chosen(scene, stated, if off_table.contains(',') { ", to reach " } else { " to reach " }, "");
+    format!("relocate {}{steps}{off_table}{chosen}", counted(count as u64, "object"))
 }
 
-fn proof(stated: &Statement) -> String {
+fn proof(scene: &Scene, stated: &Statement) -> String {
     if stated.optimal == Some(true) {
         return "proven least".to_owned();
     }
-    if stated.lower_bound == Some(Cost::ZERO) { "not proven least".to_owned() } else { bound(stated.lower_bound) }
+    if stated.lower_bound == Some(Cost::ZERO) {
+        "not proven least".to_owned()
+    } else {
+        bound(scene, stated.lower_bound)
+    }
 }
 
-fn bound(bound: Option<Cost>) -> String {
-    bound.map_or_else(|| "nothing is proven".to_owned(), |bound| format!("{} needed", at_least(bound)))
+fn bound(scene: &Scene, bound: Option<Cost>) -> String {
+    bound.map_or_else(|| "nothing is proven".to_owned(), |bound| format!("{} needed", at_least(scene, bound)))
 }
 
-fn at_least(cost: Cost) -> String {
-    format!("at least {} {}", counted(cost.get(), "relocation"), if cost == Cost::new(1) { "is" } else { "are" })
+fn at_least(scene: &Scene, cost: Cost) -> String {
+    let noun = if scene.drop_offs().is_empty() { "relocation" } else { "step" };
+    format!("at least {} {}", counted(cost.get(), noun), if cost == Cost::new(1) { "is" } else { "are" })
 }
 
-fn deadlock(stated: &Statement) -> String {
+fn deadlock(scene: &Scene, stated: &Statement) -> String {
     let Some(Deadlock { core, .. }) = &stated.deadlock else {
         return "deadlock, not proven: the method that was asked for finds no plan".to_owned();
     };
-    format!("deadlock: {} each other, no pick-and-place can free the target", holding(core.len() as u64))
+    let end = match scene.goal() {
+        Goal::AnyOf(candidates) => format!("none of {} can be freed", counted(candidates.len() as u64, "candidate")),
+        Goal::AllOf(wanted) if wanted.len() == 1 => "the wanted object can't be taken away".to_owned(),
+        Goal::AllOf(wanted) => format!("not all of {} wanted objects can be taken away", wanted.len()),
+        _ if scene.drop_offs().is_empty() => "no pick-and-place can free the target".to_owned(),
+        _ => "nothing can free the target".to_owned(),
+    };
+    format!("deadlock: {} each other, {end}", holding(core.len() as u64))
 }
 
 fn holding(count: u64) -> String {
     format!("{} {}", counted(count, "object"), if count == 1 { "holds" } else { "hold" })
 }
 
-fn counted(count: u64, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-/// The objects, which the headline leaves out.
-fn detail(stated: &Statement) -> String {
-    match stated.verdict {
-        Some(Verdict::Relocate | Verdict::Cleared | Verdict::PartlyCleared) => {
-            let moved: Vec<&str> = stated.steps().iter().map(Step::object).collect();
-            format!("in order: {}", moved.join(", "))
+fn no_space(scene: &Scene) -> &'static str {
+    match (scene.goal(), scene.destination()) {
+        (_, Destination::DropOff) => "no room in the drop-offs for what has to move",
+        (Goal::AllOf(_), _) | (_, Destination::TableThenDropOff) => {
+            "neither a place nor room in a drop-off found for what has to move"
         }
-        Some(Verdict::Deadlock) => stated
-            .deadlock
-            .as_ref()
-            .map(|deadlock| format!("holding each other: {}", deadlock.core.join(", ")))
-            .unwrap_or_default(),
-        Some(Verdict::NoSpace | Verdict::TimedOut) => stated
-            .needed
-            .as_ref()
-            .map(|needed| format!("would have to move, in order: {}", needed.join(", ")))
-            .unwrap_or_default(),
-        Some(Verdict::Graspable) | None => String::new(),
+        (_, Destination::Table) => "no place found for what has to move",
     }
 }
 
-/// The codes of the answer's warnings.
-fn warned(judged: &Judged) -> String {
-    let mut codes: Vec<&str> = judged.warnings.iter().map(Warning::code).collect();
-    codes.sort_unstable();
-    codes.dedup();
-    if codes.is_empty() { String::new() } else { format!("warnings: {}", codes.join(", ")) }
-}
-
-fn scene_line(scene: &Scene) -> String {
-    let gripper = scene.gripper();
-    let fixed = match scene.objects().iter().filter(|object| object.fixed()).count() {
-        0 => String::new(),
-        count => format!(" ({count} fixed)"),
+fn cleared(stated: &Statement) -> String {
+    let (taken, left) = (stated.steps().len(), stated.left.as_deref().unwrap_or_default().len());
+    if stated.verdict == Some(Verdict::Cleared) {
+        return match taken {
+            0 => "cleared: there is nothing to take away".to_owned(),
+            _ => format!("cleared: {} taken away", counted(taken as u64, "object")),
+        };
+    }
+    let proof = match stated.proven {
+        Some(true) => ", no order takes more",
+        _ => " (not proven that no order takes more)",
     };
-    format!(
-        "target {}; {}{fixed}; {} fingers, {} mm wide, {} mm clearance",
-        wanted(scene),
-        counted(scene.objects().len() as u64, "object"),
-        gripper.fingers(),
-        millimetres(gripper.finger_width()),
-        millimetres(gripper.clearance()),
-    )
-}
-
-fn wanted(scene: &Scene) -> String {
-    let ids = scene.goal().named().iter().map(|&object| scene.object(object).id());
-    ids.collect::<Vec<_>>().join(", ")
-}
-
-fn millimetres(metres: f64) -> f64 {
-    (metres * 1e5).round() / 100.0
-}
-
-/// The whole text, for screen readers.
-pub(super) fn description(scene: &Scene, judged: &Judged) -> String {
-    let detail = detail(judged.statement());
-    let stop = if detail.is_empty() { "" } else { ". " };
-    format!("{detail}{stop}{}", scene_line(scene))
-}
-
-/// The lines above the table.
-pub(super) fn block(scene: &Scene, judged: &Judged, view: &View) -> Group {
-    let room = view.width() - 2.0 * PADDING;
-    let lines = [
-        (headline(judged), 20.0),
-        (detail(judged.statement()), 13.0),
-        (warned(judged), 13.0),
-        (scene_line(scene), 13.0),
-    ];
-    let mut baseline = 12.0;
-    let mut group = Group::new().set("class", "headline");
-    for (text, size) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {
-        let Some((text, fitted)) = label::fit(&text, size, room) else { continue };
-        baseline += 6.0 + size;
-        let line = label::line(&text, fitted, Point2::new(PADDING, baseline));
-        group = group.add(if size > 13.0 {
-            line.set("fill", paint::INK).set("font-weight", "bold")
-        } else {
-            line.set("fill", paint::FAINT_INK)
-        });
-    }
-    group
+    format!("partly cleared: {taken} of {} taken away{proof}", counted((taken + left) as u64, "object"))
 }

@@ -5,9 +5,11 @@ use svg::node::element::{Group, Line, Rectangle};
 
 use super::label;
 use super::moves::{self, badge};
-use super::paint::{self, Paint, Sign, px, ring};
+use super::paint::{self, Paint, Sign, TRAY, px, ring};
+use super::roles::{Role, Roles};
+use super::stays::Stays;
 use super::view::{PADDING, View};
-use singulate_planner::scene::Scene;
+use singulate_planner::scene::{Goal, Scene};
 use singulate_planner::statement::Statement;
 
 /// Size of the letters, px.
@@ -25,11 +27,12 @@ pub(super) struct Legend {
     pub(super) height: f64,
 }
 
-/// The scale bar, then the symbols that occur, line by line.
-pub(super) fn legend(scene: &Scene, stated: &Statement, view: &View) -> Legend {
-    let mut drawing = Group::new().set("class", "legend").add(scale_bar(view));
-    let (mut x, mut y) = (PADDING, view.height() + LINE);
-    for (sign, text) in signs(scene, stated) {
+/// The scale bar, then the symbols that occur, line by line, `below` px below the table.
+pub(super) fn legend(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View, below: f64) -> Legend {
+    let top = view.height() + below;
+    let mut drawing = Group::new().set("class", "legend").add(scale_bar(view, top));
+    let (mut x, mut y) = (PADDING, top + LINE);
+    for (sign, text) in signs(scene, stated, roles) {
         let room = 3.0 * SIGN + label::width(text, SIZE) + PADDING;
         if x > PADDING && x + room > view.width() {
             (x, y) = (PADDING, y + LINE);
@@ -39,30 +42,66 @@ pub(super) fn legend(scene: &Scene, stated: &Statement, view: &View) -> Legend {
         drawing = drawing.add(drawn(sign, middle)).add(label::line(text, SIZE, at).set("fill", paint::INK));
         x += room;
     }
-    Legend { drawing, height: y - view.height() + LINE }
+    Legend { drawing, height: y - top + LINE }
 }
 
-fn signs(scene: &Scene, stated: &Statement) -> Vec<(Sign, &'static str)> {
-    let mut signs = vec![(Sign::DoubleRing(paint::TARGET), "target")];
-    if scene.objects().iter().any(singulate_planner::scene::Object::fixed) {
+fn signs(scene: &Scene, stated: &Statement, roles: &Roles<'_>) -> Vec<(Sign, &'static str)> {
+    let mut signs = wanted(scene, roles);
+    if roles.any_immovable(Stays::Fixed) {
         signs.push((Sign::DoubleRing(paint::FIXED), "fixed object"));
+    }
+    if roles.any_immovable(Stays::TooWide) {
+        signs.push((Sign::DoubleRing(paint::TOO_WIDE), "too wide for the hand, as if fixed"));
+    }
+    if roles.any_immovable(Stays::NotAccepted) {
+        signs.push((Sign::DoubleRing(paint::NOT_ACCEPTED), "no drop-off accepts it, as if fixed"));
     }
     if !scene.table().keep_out().is_empty() {
         signs.push((Sign::Hatch, "nothing may be placed here"));
     }
-    signs.extend(stated.steps().first().map(moves::signs).unwrap_or_default());
+    if !scene.drop_offs().is_empty() {
+        signs.push((Sign::Tray, "drop-off"));
+    }
+    signs.extend(moves::signs(stated));
     if stated.target_grasp.is_some() {
         signs.push((Sign::Finger(paint::TARGET_GRASP), "fingers at the target"));
     }
-    if let Some(deadlock) = &stated.deadlock {
-        signs.push((Sign::Disc(paint::CORE), "hold each other (a minimal set)"));
-        if deadlock.blocked.len() > deadlock.core.len() {
-            signs.push((Sign::Disc(paint::BLOCKED), "can never be moved either"));
-        }
-    }
+    signs.extend(staying(stated, roles));
     if stated.needed.is_some() {
         signs.push((Sign::Disc(paint::NEEDED), "would have to move"));
         signs.push((Sign::Number(paint::NEEDED), "order"));
+    }
+    signs
+}
+
+/// What the goal names.
+fn wanted(scene: &Scene, roles: &Roles<'_>) -> Vec<(Sign, &'static str)> {
+    let ring = Sign::DoubleRing(paint::TARGET);
+    match scene.goal() {
+        Goal::Target(_) => vec![(ring, "target")],
+        Goal::AnyOf(_) if roles.grasped().is_some() => {
+            vec![(ring, "target, the candidate that is chosen"), (Sign::Disc(paint::CANDIDATE), "other candidate")]
+        }
+        Goal::AnyOf(_) => vec![(ring, "candidate: one of these is wanted")],
+        Goal::AllOf(_) => vec![(ring, "wanted away")],
+        Goal::Clear => Vec::new(),
+    }
+}
+
+/// The lock, and what else a clearing leaves.
+fn staying(stated: &Statement, roles: &Roles<'_>) -> Vec<(Sign, &'static str)> {
+    let mut signs = Vec::new();
+    if let Some(lock) = stated.deadlock.as_ref().or(stated.stuck.as_ref()) {
+        signs.push((Sign::Disc(paint::CORE), "hold each other (a minimal set)"));
+        if lock.blocked.len() > lock.core.len() {
+            signs.push((Sign::Disc(paint::BLOCKED), "can never be moved either"));
+        }
+    }
+    if roles.any(Role::Stays(Stays::NoRoom)) {
+        signs.push((Sign::Disc(paint::NO_ROOM), "no room in a drop-off"));
+    }
+    if roles.any(Role::Stays(Stays::NotReached)) {
+        signs.push((Sign::Disc(paint::NOT_REACHED), "could go, but is not reached"));
     }
     signs
 }
@@ -85,14 +124,15 @@ fn drawn(sign: Sign, at: Point2<f64>) -> Group {
         Sign::Finger(paint) => {
             group.add(block(3.5).set("fill", paint.fill).set("fill-opacity", "0.55").set("stroke", paint.line))
         }
+        Sign::Tray => group.add(block(SIGN - 2.0).set("rx", "2").set("fill", TRAY.fill).set("stroke", TRAY.line)),
         Sign::Hatch => group.add(block(SIGN).set("fill", "url(#keep-out)").set("stroke", paint::KEEP_OUT)),
     }
 }
 
 /// A bar of a round length, about a fifth of the table's width.
-fn scale_bar(view: &View) -> Group {
+fn scale_bar(view: &View, top: f64) -> Group {
     let (x, _, width, _) = view.frame();
-    let y = view.height() - 6.0;
+    let y = top - 6.0;
     let metres = round_length(width / 5.0 / view.scale());
     let end = x + 3.0 + view.length(metres);
     let stroke = |x1: f64, y1: f64, x2: f64, y2: f64| {

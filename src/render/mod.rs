@@ -2,20 +2,30 @@
 //!
 //! It loads nothing: no fonts, no style sheets, no scripts. Ids are escaped as text, never mark-up.
 
+mod fill;
 mod headline;
+mod in_words;
 mod label;
 mod legend;
+mod lines;
 mod moves;
 mod objects;
 mod paint;
 mod roles;
+mod scene_line;
+mod stays;
+mod trays;
 mod view;
 
+pub use fill::{Fill, fills};
 pub use headline::headline;
+pub use scene_line::goal;
+pub use stays::{Stays, immovable, left};
 
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Description, Group, Line, Pattern, Rectangle, Title};
 
+use lines::Lines;
 use paint::px;
 use roles::Roles;
 use singulate_planner::paper::Judged;
@@ -23,34 +33,37 @@ use singulate_planner::scene::Scene;
 use singulate_planner::statement::Statement;
 use view::View;
 
-/// Draw the scene with its answer: the table, the objects, and the numbered moves or the objects that lock each other.
+/// Draw the scene with its answer: the table, the objects, and the numbered moves or the objects that lock each other;
+/// the drop-offs below.
 pub fn svg(scene: &Scene, judged: &Judged) -> String {
     let stated = judged.statement();
     let roles = Roles::new(scene, stated);
-    let view = View::new(scene, stated, &roles);
+    let lines = Lines::new(scene, judged);
+    let view = View::new(scene, stated, &roles, lines.added);
     let table = Group::new()
         .set("clip-path", "url(#frame)")
         .add(objects::table(scene, &view))
         .add(objects::standing(scene, &roles, &view))
         .add(steps(scene, stated, &roles, &view));
-    let legend = legend::legend(scene, stated, &view);
-    let height = view.height() + legend.height;
-    let description = label::clean(&headline::description(scene, judged));
-    Document::new()
+    let trays = trays::trays(scene, stated, &moves::moves(stated, &roles), &view);
+    let legend = legend::legend(scene, stated, &roles, &view, trays.height);
+    let height = view.height() + trays.height + legend.height;
+    let description = label::clean(&lines::description(scene, judged));
+    let drawing = Document::new()
         .set("viewBox", format!("0 0 {} {}", px(view.width()), px(height)))
         .set("width", px(view.width()))
         .set("height", px(height))
         .set("role", "img")
         .set("aria-labelledby", "title description")
         .set("font-family", "sans-serif")
-        .add(Title::new(label::clean(&headline(judged))).set("id", "title"))
+        .add(Title::new(label::clean(&headline(scene, judged))).set("id", "title"))
         .add(Description::new().set("id", "description").add(svg::node::Text::new(description)))
-        .add(definitions(&view))
+        .add(definitions(&view, &roles))
         .add(Rectangle::new().set("width", px(view.width())).set("height", px(height)).set("fill", paint::PAPER))
-        .add(headline::block(scene, judged, &view))
-        .add(table)
-        .add(legend.drawing)
-        .to_string()
+        .add(lines.drawn(&view))
+        .add(table);
+    let drawing = if scene.drop_offs().is_empty() { drawing } else { drawing.add(trays.drawing) };
+    drawing.add(legend.drawing).to_string()
 }
 
 /// The moves of a plan, the grasp of a free target, or the order of the needed objects.
@@ -60,19 +73,24 @@ fn steps(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> G
         return moves::plan(scene, stated, roles, view);
     }
     if let Some(grasp) = stated.target_grasp {
-        let grasped = roles.grasped(stated);
-        return grasped.map(|object| moves::target_grasp(scene, object, grasp, view)).unwrap_or_default();
+        return roles.grasped().map(|object| moves::target_grasp(scene, object, grasp, view)).unwrap_or_default();
     }
     stated.needed.iter().fold(group, |_, needed| moves::needed(needed, roles, view))
 }
 
-fn definitions(view: &View) -> Definitions {
+fn definitions(view: &View, roles: &Roles<'_>) -> Definitions {
     let (x, y, width, height) = view.frame();
     let frame = Rectangle::new().set("x", px(x)).set("y", px(y)).set("width", px(width)).set("height", px(height));
-    Definitions::new()
+    let definitions = Definitions::new()
         .add(ClipPath::new().set("id", "frame").add(frame))
         .add(hatch("keep-out", paint::KEEP_OUT, 8.0))
-        .add(hatch("fixed", paint::FIXED_HATCH, 5.0))
+        .add(hatch("fixed", paint::FIXED_HATCH, 5.0));
+    let as_if_fixed = [
+        (Stays::TooWide, "too-wide", paint::TOO_WIDE_HATCH),
+        (Stays::NotAccepted, "not-accepted", paint::NOT_ACCEPTED_HATCH),
+    ];
+    let occurring = as_if_fixed.into_iter().filter(|(reason, ..)| roles.any_immovable(*reason));
+    occurring.fold(definitions, |definitions, (_, id, colour)| definitions.add(hatch(id, colour, 5.0)))
 }
 
 /// Stripes at 45 degrees.

@@ -1,64 +1,82 @@
-//! The numbered moves: the old place as a ghost, an arrow, the new place, and the open fingers at both.
+//! The numbered steps: the old place as a ghost, the open fingers there, and on the table the new place with an arrow.
 
 use std::collections::HashMap;
 
 use nalgebra::Point2;
-use svg::node::element::{Group, Line, Polygon, Title};
+use svg::node::element::{Circle, Group, Line, Polygon, Title};
 
+use super::fill::{drop_off, drops};
 use super::label;
 use super::objects::{named, outline};
 use super::paint::{self, Paint, Sign, filled, fingers, px, ring};
-use super::roles::Roles;
+use super::roles::{Mark, Roles};
 use super::view::View;
 use singulate_planner::scene::{Footprint, Object, Pose, Scene, distance};
-use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step};
+use singulate_planner::statement::{StatedGrasp, Statement, Step};
+
+/// The most steps off the table with fingers, number and arrow. Of further ones only the old place is drawn: nobody
+/// could follow their arrows, and a table may hold thousands.
+pub(super) const MOST_FOLLOWED: usize = 100;
 
 /// Every relocation and the target's grasp. Arrows and numbers come last, so that no disc hides them.
 pub(super) fn plan(scene: &Scene, stated: &Statement, roles: &Roles<'_>, view: &View) -> Group {
     let last: HashMap<&str, usize> =
         stated.steps().iter().enumerate().map(|(at, step)| (step.object(), at + 1)).collect();
-    let steps = || stated.steps().iter().enumerate().filter_map(|(at, step)| Move::new(at + 1, step, roles));
-    let places = steps().fold(Group::new().set("class", "relocations"), |group, step| {
+    let moves = moves(stated, roles);
+    let places = moves.iter().fold(Group::new().set("class", "relocations"), |group, step| {
         let again = last.get(step.object.id()) != Some(&step.number);
-        group.add(places(scene, &step, again, view))
+        group.add(places(scene, step, again, view))
     });
-    let routes = steps().fold(Group::new().set("class", "routes"), |group, step| group.add(route(&step, view)));
-    let target = stated.target_grasp.zip(roles.grasped(stated));
+    let routes = moves.iter().filter_map(|step| route(step, view));
+    let routes = routes.fold(Group::new().set("class", "routes"), Group::add);
+    let target = stated.target_grasp.zip(roles.grasped());
     let target = target.map(|(grasp, object)| target_grasp(scene, object, grasp, view));
     Group::new().add(places).add(target.unwrap_or_default()).add(routes)
 }
 
-/// One pick-and-place with its object.
-struct Move<'a> {
-    number: usize,
-    object: &'a Object,
-    from: Pose,
-    step: &'a PickPlace,
+/// One step with its object.
+pub(super) struct Move<'a> {
+    pub(super) number: usize,
+    pub(super) object: &'a Object,
+    pub(super) from: Pose,
+    pub(super) step: &'a Step,
+    /// True for what the goal wants away.
+    wanted: bool,
+    /// False for a step of which only the old place is drawn.
+    pub(super) followed: bool,
 }
 
-impl<'a> Move<'a> {
-    /// `None` for an object that is not in the scene.
-    fn new(number: usize, step: &'a Step, roles: &Roles<'a>) -> Option<Self> {
-        let step = step.pick_place()?;
-        let object = roles.object(&step.object)?;
-        Some(Self { number, object, from: step.from.unwrap_or(object.footprint().pose), step })
-    }
+/// The steps of objects that are in the scene.
+pub(super) fn moves<'a>(stated: &'a Statement, roles: &Roles<'a>) -> Vec<Move<'a>> {
+    let mut dropped = 0;
+    let steps = stated.steps().iter().enumerate().filter_map(|(at, step)| {
+        dropped += usize::from(drop_off(step).is_some());
+        let object = roles.object(step.object())?;
+        let from = match step {
+            Step::PickPlace(step) => step.from,
+            Step::PickDrop(step) => step.from,
+        };
+        let followed = drop_off(step).is_none() || dropped <= MOST_FOLLOWED;
+        let wanted = roles.marked(object.id()) == Mark::Wanted;
+        Some(Move { number: at + 1, object, from: from.unwrap_or(object.footprint().pose), step, wanted, followed })
+    });
+    steps.collect()
 }
 
-/// The signs of a step in the legend.
-pub(super) fn signs(step: &Step) -> Vec<(Sign, &'static str)> {
-    match step {
-        Step::PickPlace(_) => vec![
-            (Sign::Dashed, "old place"),
-            (Sign::Disc(paint::MOVED), "new place"),
-            (Sign::Number(paint::MOVED), "order"),
-            (Sign::Finger(paint::GRASP), "fingers picking"),
-            (Sign::Finger(paint::RELEASE), "fingers releasing"),
-        ],
-        Step::PickDrop(_) => {
-            vec![(Sign::Number(paint::MOVED), "order"), (Sign::Finger(paint::GRASP), "fingers picking")]
-        }
-    }
+/// The signs of the steps in the legend.
+pub(super) fn signs(stated: &Statement) -> Vec<(Sign, &'static str)> {
+    let dropped = drops(stated).count();
+    let placed = stated.steps().len() > dropped;
+    let order = if dropped > MOST_FOLLOWED { "order, of the first 100 off the table" } else { "order" };
+    let signs = [
+        (true, Sign::Dashed, "old place"),
+        (placed, Sign::Disc(paint::MOVED), "new place"),
+        (true, Sign::Number(paint::MOVED), order),
+        (true, Sign::Finger(paint::GRASP), "fingers picking"),
+        (placed, Sign::Finger(paint::RELEASE), "fingers releasing"),
+    ];
+    let steps = !stated.steps().is_empty();
+    signs.into_iter().filter(|(occurs, ..)| steps && *occurs).map(|(_, sign, text)| (sign, text)).collect()
 }
 
 /// The open fingers at the target.
@@ -78,51 +96,72 @@ pub(super) fn needed(ids: &[String], roles: &Roles<'_>, view: &View) -> Group {
     })
 }
 
-/// One relocation: ghost and grasp at the old place, disc and release at the new one. A new place is dashed too if the
-/// object leaves it again.
-fn places(scene: &Scene, Move { number, object, from, step }: &Move<'_>, again: bool, view: &View) -> Group {
-    let (old, new) = (object.footprint().moved_to(*from), object.footprint().moved_to(step.to));
+/// One step: ghost and grasp at the old place; disc and release at the new one, if there is one.
+fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
+    let old = step.object.footprint().moved_to(step.from);
+    let title = match drop_off(step.step) {
+        Some(drop_off) => format!("{}: {} to {drop_off}", step.number, step.object.id()),
+        None => format!("{}: {}", step.number, step.object.id()),
+    };
+    let paint = if step.wanted { paint::GHOST_OF_WANTED } else { paint::GHOST };
     let stroke = outline(&old, view);
-    let ghost = filled(&old, view, Paint { fill: paint::PAPER, line: paint::FAINT_INK })
+    let ghost = filled(&old, view, paint)
         .set("fill-opacity", "0.7")
         .set("stroke-width", px(stroke))
         .set("stroke-dasharray", "5 3");
-    let mut place = filled(&new, view, paint::MOVED).set("stroke-width", px(1.5 * stroke));
-    if again {
-        place = place.set("fill-opacity", "0.4").set("stroke-dasharray", "5 3");
+    let mut group = Group::new().set("class", "relocation").add(Title::new(label::clean(&title))).add(ghost);
+    if step.followed {
+        let grasp = match step.step {
+            Step::PickPlace(step) => step.grasp,
+            Step::PickDrop(step) => step.grasp,
+        };
+        group = group.add(fingers(&old, grasp.yaw, scene.gripper(), view, paint::GRASP));
     }
-    let group = Group::new()
-        .set("class", "relocation")
-        .add(Title::new(label::clean(&format!("{number}: {}", object.id()))))
-        .add(ghost)
-        .add(fingers(&old, step.grasp.yaw, scene.gripper(), view, paint::GRASP))
-        .add(place)
-        .add(fingers(&new, step.release.yaw, scene.gripper(), view, paint::RELEASE));
-    let group = named(group, object.id(), &old, Paint { fill: paint::PAPER, line: paint::FAINT_INK }, view);
-    named(group, object.id(), &new, paint::MOVED, view)
+    match step.step {
+        Step::PickDrop(_) => named(group, step.object.id(), &old, paint, view),
+        Step::PickPlace(place) => {
+            let new = old.moved_to(place.to);
+            let group = group.add(set_down(&new, again, view)).add(fingers(
+                &new,
+                place.release.yaw,
+                scene.gripper(),
+                view,
+                paint::RELEASE,
+            ));
+            let group = named(group, step.object.id(), &old, paint, view);
+            named(group, step.object.id(), &new, paint::MOVED, view)
+        }
+    }
 }
 
-/// The arrow, and the step's number at both ends.
-fn route(Move { number, object, from, step }: &Move<'_>, view: &View) -> Group {
-    let (number, footprint) = (*number, object.footprint());
+/// The object at a new place, dashed if it leaves it again.
+fn set_down(new: &Footprint, again: bool, view: &View) -> Circle {
+    let place = filled(new, view, paint::MOVED).set("stroke-width", px(1.5 * outline(new, view)));
+    if again { place.set("fill-opacity", "0.4").set("stroke-dasharray", "5 3") } else { place }
+}
+
+/// The arrow to the new place, and the step's number at both ends; `None` for a step off the table.
+fn route(Move { number, object, from, step, .. }: &Move<'_>, view: &View) -> Option<Group> {
+    let (number, footprint, to) = (*number, object.footprint(), step.pick_place()?.to);
     let radius = view.length(footprint.circumradius());
-    let (from, to) = (view.point(from.at), view.point(step.to.at));
+    let (from, to) = (view.point(from.at), view.point(to.at));
     let size = badge_radius(&footprint, view);
     let badge = badge(number, to + nalgebra::Vector2::new(-0.75 * radius, -0.75 * radius), paint::MOVED, size);
     let group = Group::new().set("class", "route");
     let length = distance(from, to);
     if length < 1.0 {
-        return group.add(badge);
+        return Some(group.add(badge));
     }
     let along = (to - from) / length;
     // If the two places overlap, the arrow would have no length, so it runs from centre to centre.
     let inset = if length > 2.6 * radius { radius } else { 0.0 };
     let (start, tip) = (from + along * inset, to - along * inset);
     // The number at both ends: where many arrows cross, none can be followed.
-    group.add(arrow(start, tip, size)).add(self::badge(number, start, paint::GRASP, 0.8 * size)).add(badge)
+    Some(group.add(arrow(start, tip, size)).add(self::badge(number, start, paint::GRASP, 0.8 * size)).add(badge))
 }
 
-fn arrow(start: Point2<f64>, tip: Point2<f64>, size: f64) -> Group {
+/// A line with a head at `tip`.
+pub(super) fn arrow(start: Point2<f64>, tip: Point2<f64>, size: f64) -> Group {
     let length = distance(start, tip);
     let along = (tip - start) / length;
     let head = size.min(length / 2.0);
@@ -153,6 +192,6 @@ pub(super) fn badge(number: usize, at: Point2<f64>, paint: Paint, radius: f64) -
 }
 
 /// Large enough to be read on small objects too.
-fn badge_radius(footprint: &Footprint, view: &View) -> f64 {
+pub(super) fn badge_radius(footprint: &Footprint, view: &View) -> f64 {
     (0.3 * view.length(footprint.circumradius())).clamp(8.0, 14.0)
 }

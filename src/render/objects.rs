@@ -4,7 +4,8 @@ use svg::node::element::{Group, Rectangle as Rect, Title};
 
 use super::label::{self, LARGEST_SIZE};
 use super::paint::{self, Paint, contour, filled, px};
-use super::roles::{Role, Roles};
+use super::roles::{Mark, Role, Roles};
+use super::stays::Stays;
 use super::view::View;
 use singulate_planner::scene::{Footprint, ObjectIndex, Rectangle, Scene};
 
@@ -34,29 +35,53 @@ pub(super) fn standing(scene: &Scene, roles: &Roles<'_>, view: &View) -> Group {
 }
 
 fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Group {
-    let (object, target) = (scene.object(index), roles.wanted(index));
-    let (name, paint) = match roles.of(index) {
-        Role::Core => ("core", paint::CORE),
-        Role::Blocked => ("blocked", paint::BLOCKED),
-        Role::Needed => ("needed", paint::NEEDED),
-        Role::Moved | Role::Bystander if target => ("object", paint::TARGET),
-        Role::Moved | Role::Bystander if object.fixed() => ("object", paint::FIXED),
-        Role::Moved | Role::Bystander => ("object", paint::OBSTACLE),
-    };
+    let (object, mark) = (scene.object(index), roles.mark(index));
+    let (name, paint) = look(roles.of(index), mark);
     let (footprint, stroke) = (object.footprint(), outline(&object.footprint(), view));
-    let mut group = Group::new()
-        .set("class", if target { format!("{name} target") } else { name.to_owned() })
-        .add(Title::new(label::clean(object.id())))
-        .add(filled(&footprint, view, paint).set("stroke-width", px(if target { 2.5 * stroke } else { stroke })));
-    if target {
+    let class = match mark {
+        Mark::Wanted => format!("{name} target"),
+        Mark::Candidate => format!("{name} candidate"),
+        Mark::Unnamed => name.to_owned(),
+    };
+    let mut group =
+        Group::new().set("class", class).add(Title::new(label::clean(&title(object.id(), roles.of(index))))).add(
+            filled(&footprint, view, paint)
+                .set("stroke-width", px(if mark == Mark::Wanted { 2.5 * stroke } else { stroke })),
+        );
+    if mark == Mark::Wanted {
         // Gold on red, so that the target stands out within a lock too.
         let line = if paint == paint::TARGET { paint.line } else { paint::TARGET.fill };
         group = group.add(inner_ring(&footprint, 0.88, view, line));
     }
-    if object.fixed() {
+    if roles.immovable(index).is_some() {
         group = group.add(inner_ring(&footprint, 0.84, view, paint.line));
     }
     named(group, object.id(), &footprint, paint, view)
+}
+
+/// The class and the colours of an object that is not moved.
+fn look(role: Role, mark: Mark) -> (&'static str, Paint) {
+    match (role, mark) {
+        (Role::Core, _) => ("core", paint::CORE),
+        (Role::Blocked, _) => ("blocked", paint::BLOCKED),
+        (Role::Needed, _) => ("needed", paint::NEEDED),
+        (_, Mark::Wanted) => ("object", paint::TARGET),
+        (_, Mark::Candidate) => ("object", paint::CANDIDATE),
+        (Role::Stays(Stays::Fixed), _) => ("object", paint::FIXED),
+        (Role::Stays(Stays::TooWide), _) => ("object", paint::TOO_WIDE),
+        (Role::Stays(Stays::NotAccepted), _) => ("object", paint::NOT_ACCEPTED),
+        (Role::Stays(Stays::Locked), _) => ("blocked", paint::BLOCKED),
+        (Role::Stays(Stays::NoRoom), _) => ("object", paint::NO_ROOM),
+        (Role::Stays(Stays::NotReached), _) => ("object", paint::NOT_REACHED),
+        (Role::Moved | Role::Bystander, _) => ("object", paint::OBSTACLE),
+    }
+}
+
+fn title(id: &str, role: Role) -> String {
+    match role {
+        Role::Stays(why) if why != Stays::Fixed => format!("{id}: {}", why.words()),
+        _ => id.to_owned(),
+    }
 }
 
 /// The second ring of a fixed object and of the target.
@@ -76,7 +101,7 @@ pub(super) fn named(group: Group, id: &str, footprint: &Footprint, paint: Paint,
     let ink = if paint == paint::CORE { paint::PAPER } else { paint::INK };
     let text = label::centred(&text, size, view.point(footprint.at())).set("fill", ink);
     // A halo separates the letters from the hatching.
-    let halo = paint == paint::FIXED;
+    let halo = [paint::FIXED, paint::TOO_WIDE, paint::NOT_ACCEPTED].contains(&paint);
     group.add(if halo {
         text.set("stroke", paint::PAPER).set("stroke-width", px(size / 4.0)).set("paint-order", "stroke")
     } else {

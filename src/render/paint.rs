@@ -15,6 +15,8 @@ pub(super) const TABLE: &str = "#fbf7ef";
 pub(super) const TABLE_EDGE: &str = "#8d6e4a";
 pub(super) const KEEP_OUT: &str = "#d7b9a0";
 pub(super) const FIXED_HATCH: &str = "#b4b9be";
+pub(super) const TOO_WIDE_HATCH: &str = "#e6b98a";
+pub(super) const NOT_ACCEPTED_HATCH: &str = "#c3b1e1";
 
 /// Fill and outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +27,22 @@ pub(super) struct Paint {
 
 pub(super) const OBSTACLE: Paint = Paint { fill: "#e3e7ea", line: "#6b7177" };
 pub(super) const FIXED: Paint = Paint { fill: "url(#fixed)", line: "#3c4043" };
+/// As if fixed, since no hand spans it.
+pub(super) const TOO_WIDE: Paint = Paint { fill: "url(#too-wide)", line: "#8a4b08" };
+/// As if fixed, since no drop-off accepts it.
+pub(super) const NOT_ACCEPTED: Paint = Paint { fill: "url(#not-accepted)", line: "#5b3f94" };
 pub(super) const TARGET: Paint = Paint { fill: "#ffd54f", line: "#8a5a00" };
+/// A candidate, where another one is chosen.
+pub(super) const CANDIDATE: Paint = Paint { fill: "#fff3c4", line: "#8a5a00" };
+/// The old place of an object.
+pub(super) const GHOST: Paint = Paint { fill: PAPER, line: FAINT_INK };
+/// The old place of an object that is wanted away.
+pub(super) const GHOST_OF_WANTED: Paint = Paint { fill: "#ffe082", line: "#8a5a00" };
+/// Stays for want of room in a drop-off.
+pub(super) const NO_ROOM: Paint = Paint { fill: "#e4d7f5", line: "#5b3f94" };
+/// Stays behind others that stay, or for want of time.
+pub(super) const NOT_REACHED: Paint = Paint { fill: "#cfe8ea", line: "#1f6f78" };
+pub(super) const TRAY: Paint = Paint { fill: "#f1f3f4", line: "#5f6368" };
 pub(super) const MOVED: Paint = Paint { fill: "#b7e1cd", line: "#137a43" };
 pub(super) const NEEDED: Paint = Paint { fill: "#d7e3fc", line: "#1a56c4" };
 pub(super) const CORE: Paint = Paint { fill: "#d32f2f", line: "#7f0000" };
@@ -46,6 +63,7 @@ pub(super) enum Sign {
     Number(Paint),
     Finger(Paint),
     Hatch,
+    Tray,
 }
 
 /// A number of pixels, with two decimals: finer than any screen.
@@ -82,10 +100,11 @@ pub(super) fn points(corners: impl IntoIterator<Item = Point2<f64>>) -> String {
     corners.into_iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
 }
 
-/// The k open fingers round `grasped` at `yaw`: rectangles [r, r + c] × [−w/2, w/2], turned. Finger 0 has a dot.
+/// The k open fingers round `grasped` at `yaw`, and all that they cover while they close: rectangles from the object's
+/// edge to the fingers' outer edge, w wide, turned. Finger 0 has a dot.
 pub(super) fn fingers(grasped: &Footprint, yaw: f64, gripper: &Gripper, view: &View, paint: Paint) -> Group {
     let (Shape::Disc { radius: inner }, centre) = (grasped.shape, grasped.at());
-    let outer = inner + gripper.clearance();
+    let outer = gripper.outer_distance(grasped);
     let half = gripper.finger_width() / 2.0;
     let mut group = Group::new()
         .set("class", "fingers")

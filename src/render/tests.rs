@@ -1,5 +1,10 @@
 //! The drawing, read as XML.
 
+mod goals;
+mod rows;
+mod trays;
+mod words;
+
 use core::f64::consts::PI;
 
 use nalgebra::Point2;
@@ -193,7 +198,7 @@ fn the_fingers_are_where_the_gripper_puts_them() {
     let scene = scene(&["t", "a"]);
     let answer = graspable(0.1);
     let stated = &answer.answer.statement;
-    let view = View::new(&scene, stated, &Roles::new(&scene, stated));
+    let view = View::new(&scene, stated, &Roles::new(&scene, stated), 0.0);
     let drawing = svg(&scene, &answer);
     // Finger 0 points along +x: from r to r + c, half a width to both sides.
     let corners = [(0.28, 0.19), (0.33, 0.19), (0.33, 0.21), (0.28, 0.21)].map(|(x, y)| view.point(Point2::new(x, y)));

@@ -31,8 +31,8 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The table to scale, with objects that hang over its edge.
-    pub(super) fn new(scene: &Scene, stated: &Statement, roles: &Roles<'_>) -> Self {
+    /// The table to scale, with objects that hang over its edge. The lines above it take `added` px more than usual.
+    pub(super) fn new(scene: &Scene, stated: &Statement, roles: &Roles<'_>, added: f64) -> Self {
         let top = scene.table().top();
         let (mut min, mut max) = (top.min(), top.max());
         let allowance = OVERHANG * (max.x - min.x).max(max.y - min.y);
@@ -43,7 +43,7 @@ impl View {
         let (below, above) = (min.y.max(top.min().y - allowance), max.y.min(top.max().y + allowance));
         let scale = (LARGEST.0 / (right - left)).min(LARGEST.1 / (above - below));
         let extent = ((right - left) * scale, (above - below) * scale);
-        let origin = (PADDING + (LEAST_WIDTH - 2.0 * PADDING - extent.0).max(0.0) / 2.0, HEADER);
+        let origin = (PADDING + (LEAST_WIDTH - 2.0 * PADDING - extent.0).max(0.0) / 2.0, HEADER + added);
         Self { scale, corner: Point2::new(left, above), origin, extent }
     }
 
@@ -74,9 +74,9 @@ impl View {
         (self.extent.0 + 2.0 * PADDING).max(LEAST_WIDTH)
     }
 
-    /// Height of headline and table, px; the legend comes below.
+    /// Height of headline and table, px; drop-offs and legend come below.
     pub(super) fn height(&self) -> f64 {
-        HEADER + self.extent.1 + PADDING
+        self.origin.1 + self.extent.1 + PADDING
     }
 }
 
@@ -94,7 +94,7 @@ fn drawn<'a>(
         let object = roles.object(step.object()).map(Object::footprint);
         object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object.moved_to(pose))))
     });
-    let grasped = stated.target_grasp.and_then(|_| roles.grasped(stated));
+    let grasped = stated.target_grasp.and_then(|_| roles.grasped());
     let target = grasped.map(|object| reach(object.footprint()));
     scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
 }

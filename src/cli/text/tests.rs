@@ -1,11 +1,15 @@
 //! The texts, word for word.
 
+mod goals;
+
 use nalgebra::Point2;
 
 use super::*;
 use crate::wire::{RequestLimits, read_scene};
 use singulate_planner::check::{Fault, FaultCode, Report};
+use singulate_planner::cost::Cost;
 use singulate_planner::scene::ObjectIndex;
+use singulate_planner::statement::Deadlock;
 
 fn request() -> PlanRequest {
     let scene = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 2, "y_max": 1},
@@ -174,7 +178,7 @@ fn a_verification_lists_its_faults_with_steps_counted_from_one() {
         object: Some("plate-2".to_owned()),
         detail: "finger 1 is 3 mm inside 'vase'".to_owned(),
     };
-    let text = |faults| verification(&VerificationBody::new(&Report { faults, ..Report::default() }));
+    let text = |faults| verification(&request().scene, &VerificationBody::new(&Report { faults, ..Report::default() }));
     let expected = "not valid: 1 fault\n  step 1, plate-2: finger 1 is 3 mm inside 'vase' (grasp_blocked)\n";
     assert_eq!(text(vec![fault]), expected);
     assert_eq!(text(Vec::new()), "valid: all that it states holds\n");
@@ -185,7 +189,7 @@ fn a_verification_says_when_to_plan_again() {
     let fault = |code| Fault { code, step: None, object: None, detail: "why".to_owned() };
     let text = |first_failing_step, code| {
         let report = Report { faults: vec![fault(code)], first_failing_step, ..Report::default() };
-        verification(&VerificationBody::new(&report))
+        verification(&request().scene, &VerificationBody::new(&report))
     };
     let fails = "Plan again: step 3 fails. The grasp of the target counts as the last step.\n";
     assert_eq!(text(Some(2), FaultCode::TargetBlocked), format!("not valid: 1 fault\n  why (target_blocked)\n{fails}"));
