@@ -1,6 +1,7 @@
 //! Bad inputs with their pointers, and answers with their fields.
 
 mod answers;
+mod drop_offs;
 mod malformed;
 mod noise;
 mod requests;

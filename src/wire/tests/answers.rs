@@ -6,6 +6,7 @@ use nalgebra::Point2;
 use serde_json::{Value, json};
 use utoipa::PartialSchema;
 
+use super::wanted::wanting;
 use super::{has_faults, read, scene, with};
 use crate::wire::*;
 use singulate_planner::budget::Budget;
@@ -14,7 +15,7 @@ use singulate_planner::cost::Cost;
 use singulate_planner::paper::{Judged, plan_by};
 use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::search::SILENT;
-use singulate_planner::statement::{Deadlock, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
 
 fn statements() -> Vec<Statement> {
     let (b, grasp) = (vec!["b".to_owned()], StatedGrasp { yaw: 0.5, slack: Some(0.2) });
@@ -96,6 +97,49 @@ fn an_answer_as_served_reads_as_the_statement_that_was_checked() {
     }
     let short = read_plan(br#"{"relocations": [], "target_grasp": {"yaw": 1}}"#, &request.scene, false).unwrap();
     assert_eq!((short.verdict, short.cost, short.target_grasp.unwrap().yaw), (None, None, 1.0));
+}
+
+/// A goal, and what may be stated of it.
+fn of_goals() -> [(Value, Statement); 4] {
+    let grasp = StatedGrasp { yaw: 0.5, slack: Some(0.2) };
+    let from = Some(Point2::new(0.3, 0.2).into());
+    let drop = Step::PickDrop(PickDrop { object: "a".to_owned(), from, grasp, drop_off: "tray".to_owned() });
+    let mut statements = statements();
+    let relocate = statements.swap_remove(1);
+    let stuck = Some(Deadlock { blocked: vec!["b".to_owned(), "vase".to_owned()], core: vec!["b".to_owned()] });
+    let cleared = Statement {
+        verdict: Some(Verdict::PartlyCleared),
+        relocations: Some(vec![drop.clone()]),
+        cost: Some(Cost::new(1)),
+        left: Some(vec!["b".to_owned()]),
+        proven: Some(false),
+        ..Statement::default()
+    };
+    [
+        (json!({"any_of": ["a", "b"]}), Statement { target: Some("b".to_owned()), ..relocate.clone() }),
+        (json!({"all_of": ["a"]}), Statement { relocations: Some(vec![drop]), target_grasp: None, ..relocate }),
+        (json!({"clear": true}), Statement { stuck, ..cleared.clone() }),
+        (json!({"clear": true}), Statement { left: Some(Vec::new()), ..cleared }),
+    ]
+}
+
+#[test]
+fn an_answer_to_a_goal_as_served_reads_as_the_statement_that_was_checked() {
+    for (goal, statement) in of_goals() {
+        let scene = wanting(goal.clone());
+        let request = read(&scene.to_string()).unwrap();
+        let body = serde_json::to_value(AnswerBody::new(&request, &judged(statement.clone()))).unwrap();
+        assert_eq!(body["target"], json!(statement.target), "{body}");
+        let clears = goal["clear"] == true;
+        assert!(["stuck", "left", "proven"].iter().all(|name| body.get(name).is_some() == clears), "{body}");
+        assert_eq!(read_plan(body.to_string().as_bytes(), &request.scene, false).unwrap(), statement);
+        let both = json!({"scene": scene, "plan": body}).to_string();
+        assert_eq!(read_verify(both.as_bytes(), &RequestLimits::default()).unwrap().statement, statement);
+    }
+    let clear = read(&wanting(json!({"clear": true})).to_string()).unwrap().scene;
+    assert!(read_plan(br#"{"relocations": []}"#, &clear, false).is_ok(), "nothing is grasped in the end");
+    let any = read(&wanting(json!({"any_of": ["a"]})).to_string()).unwrap().scene;
+    has_faults(&read_plan(br#"{"relocations": []}"#, &any, false).unwrap_err(), &[("missing", "/target_grasp")]);
 }
 
 #[test]

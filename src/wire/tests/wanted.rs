@@ -1,4 +1,4 @@
-//! Goals, drop-offs and openings: what is read, and what is refused with which pointer.
+//! What is wanted, and what can't be: what is read, and what is refused with which pointer.
 
 use serde_json::{Value, json};
 
@@ -7,21 +7,16 @@ use crate::wire::*;
 use singulate_planner::scene::{Destination, Goal, Opening};
 
 /// A tray that takes anything.
-fn tray() -> Value {
+pub(super) fn tray() -> Value {
     json!([{"id": "tray"}])
 }
 
 /// The scene with this goal in place of its target, and a tray.
-fn wanting(goal: Value) -> Value {
+pub(super) fn wanting(goal: Value) -> Value {
     let mut body = without("/target");
     body["goal"] = goal;
     body["drop_offs"] = tray();
     body
-}
-
-/// The scene with these drop-offs.
-fn dropping(drop_offs: Value) -> Value {
-    with("/drop_offs", drop_offs)
 }
 
 /// The scene with a hand that opens so far.
@@ -30,17 +25,8 @@ fn opening(mut body: Value, max_opening: f64) -> Value {
     body
 }
 
-/// Puts the value in its place; a goal takes that of the target.
-fn set(body: &mut Value, pointer: &str, value: Value) {
-    let (parent, field) = pointer.rsplit_once('/').unwrap();
-    if field == "goal" && !value.is_null() {
-        body.as_object_mut().unwrap().remove("target");
-    }
-    body.pointer_mut(parent).unwrap()[field] = value;
-}
-
 #[track_caller]
-fn refuses(body: &Value, expected: &[(&str, &str)]) {
+pub(super) fn refuses(body: &Value, expected: &[(&str, &str)]) {
     let problem = read(&body.to_string()).expect_err("the body is faulty");
     has_faults(&problem, expected);
     assert_eq!(problem.status(), 422);
@@ -48,12 +34,12 @@ fn refuses(body: &Value, expected: &[(&str, &str)]) {
 
 /// The codes and pointers of a sound body's warnings.
 #[track_caller]
-fn warnings(body: &Value) -> Vec<(String, String)> {
+pub(super) fn warnings(body: &Value) -> Vec<(String, String)> {
     let items = read(&body.to_string()).unwrap().warnings;
     items.into_iter().map(|item| (item.code, item.pointer)).collect()
 }
 
-fn pair(code: &str, pointer: &str) -> (String, String) {
+pub(super) fn pair(code: &str, pointer: &str) -> (String, String) {
     (code.to_owned(), pointer.to_owned())
 }
 
@@ -90,8 +76,8 @@ fn null_stands_for_a_field_that_is_absent() {
     }
     let settings = json!({"destination": null});
     assert_eq!(read(&with("/settings", settings)), read(&scene()));
-    let nulls = dropping(json!([{"id": "tray", "capacity": null, "accepts": null}]));
-    assert_eq!(read(&nulls), read(&dropping(tray())));
+    let nulls = with("/drop_offs", json!([{"id": "tray", "capacity": null, "accepts": null}]));
+    assert_eq!(read(&nulls), read(&with("/drop_offs", tray())));
     let mut body = wanting(json!({"any_of": ["a"], "all_of": null, "clear": null}));
     body["target"] = Value::Null;
     assert_eq!(read(&body), read(&wanting(json!({"any_of": ["a"]}))));
@@ -189,93 +175,6 @@ fn what_is_too_wide_is_as_if_fixed_and_no_goal() {
 }
 
 #[test]
-fn a_drop_off_is_told_at_its_place() {
-    let many: Vec<Value> = (0..1001).map(|n| json!({"id": format!("tray-{n}")})).collect();
-    assert!(read(&dropping(json!(many[..1000])).to_string()).is_ok());
-    for (drop_offs, code, pointer) in [
-        (json!(many), "too_many_drop_offs", "/drop_offs"),
-        (json!({}), "wrong_type", "/drop_offs"),
-        (json!([5]), "wrong_type", "/drop_offs/0"),
-        (json!([{}]), "missing", "/drop_offs/0/id"),
-        (json!([{"id": 5}]), "wrong_type", "/drop_offs/0/id"),
-        (json!([{"id": ""}]), "id_length", "/drop_offs/0/id"),
-        (json!([{"id": "x".repeat(129)}]), "id_length", "/drop_offs/0/id"),
-        (json!([{"id": "tray"}, {"id": "bin"}, {"id": "tray"}]), "duplicate_id", "/drop_offs/2/id"),
-        (json!([{"id": "tray", "depth": 1}]), "unknown_field", "/drop_offs/0/depth"),
-        (json!([{"id": "tray", "capacity": 0}]), "out_of_range", "/drop_offs/0/capacity"),
-        (json!([{"id": "tray", "capacity": -1}]), "out_of_range", "/drop_offs/0/capacity"),
-        (json!([{"id": "tray", "capacity": 1.5}]), "not_whole", "/drop_offs/0/capacity"),
-        (json!([{"id": "tray", "capacity": 1e10}]), "out_of_range", "/drop_offs/0/capacity"),
-        (json!([{"id": "tray", "capacity": "4"}]), "wrong_type", "/drop_offs/0/capacity"),
-        (json!([{"id": "tray", "accepts": "a"}]), "wrong_type", "/drop_offs/0/accepts"),
-        (json!([{"id": "tray", "accepts": ["a", null]}]), "wrong_type", "/drop_offs/0/accepts/1"),
-    ] {
-        refuses(&dropping(drop_offs), &[(code, pointer)]);
-    }
-    // An object and a drop-off are no two objects.
-    assert_eq!(warnings(&dropping(json!([{"id": "a", "capacity": 1e9}]))), []);
-}
-
-#[test]
-fn what_a_drop_off_accepts_may_be_gone() {
-    let gone = dropping(json!([{"id": "tray", "accepts": ["a", "gone", "a", "vase"]}]));
-    assert_eq!(warnings(&gone), [pair("unknown_object", "/drop_offs/0/accepts/1")]);
-    let long = dropping(json!([{"id": "tray", "accepts": ["x".repeat(129)]}]));
-    assert_eq!(warnings(&long), [pair("id_length", "/drop_offs/0/accepts/0")]);
-    let nowhere = with("/settings", json!({"destination": "drop_off"}));
-    assert_eq!(warnings(&nowhere), [pair("no_drop_off", "/settings/destination")]);
-}
-
-#[test]
-fn an_opening_is_told_at_its_place() {
-    let with_opening = |max_opening: Value, word: Value| {
-        let mut body = with("/gripper/max_opening", max_opening);
-        body["gripper"]["opening"] = word;
-        body
-    };
-    for (max_opening, word, code, pointer) in [
-        (Value::Null, json!("full"), "missing", "/gripper/max_opening"),
-        (json!(0), Value::Null, "out_of_range", "/gripper/max_opening"),
-        (json!(1001), json!("full"), "out_of_range", "/gripper/max_opening"),
-        (json!("wide"), Value::Null, "wrong_type", "/gripper/max_opening"),
-        (json!(0.2), json!("wide"), "unknown_value", "/gripper/opening"),
-        (json!(0.2), json!(true), "wrong_type", "/gripper/opening"),
-    ] {
-        refuses(&with_opening(max_opening, word), &[(code, pointer)]);
-    }
-    assert!(read(&with_opening(json!(0.2), json!("full")).to_string()).is_ok());
-    refuses(&with("/settings", json!({"destination": "floor"})), &[("unknown_value", "/settings/destination")]);
-}
-
-#[test]
-fn the_papers_methods_know_none_of_it() {
-    let fields = [
-        ("/goal", json!({"any_of": ["a"]})),
-        ("/drop_offs", json!([])),
-        ("/drop_offs", tray()),
-        ("/gripper/max_opening", json!(0.2)),
-        ("/gripper/opening", json!("fit")),
-        ("/settings/destination", json!("table")),
-    ];
-    for (name, word) in
-        [("grasp_model", "sector"), ("search", "lobs"), ("search", "forward_astar"), ("placement", "raster")]
-    {
-        let paper = with("/settings", json!({name: word}));
-        let (mut absent, mut all) = (paper.clone(), paper.clone());
-        for (pointer, value) in &fields {
-            set(&mut absent, pointer, Value::Null);
-            set(&mut all, pointer, value.clone());
-            let mut body = paper.clone();
-            set(&mut body, pointer, value.clone());
-            refuses(&body, &[("discs_only", pointer)]);
-        }
-        assert_eq!(warnings(&absent), []);
-        let pointers = ["/goal", "/drop_offs", "/gripper/max_opening", "/gripper/opening", "/settings/destination"];
-        refuses(&all, &pointers.map(|pointer| ("discs_only", pointer)));
-    }
-}
-
-#[test]
 fn the_plan_of_another_goal_is_a_mismatch() {
     let mismatch = |goal: Value, target: &str| {
         let plan = json!({"relocations": [], "verdict": "relocate", "target": target});
@@ -292,38 +191,6 @@ fn the_plan_of_another_goal_is_a_mismatch() {
     }
     let stated = mismatch(json!({"any_of": ["a", "b"]}), "b").unwrap().statement;
     assert_eq!(stated.target.as_deref(), Some("b"));
-}
-
-#[test]
-fn steps_to_drop_offs_are_read_and_told_at_their_place() {
-    let read = |step: Value| {
-        let plan = json!({"relocations": [step]});
-        read_verify(
-            json!({"scene": wanting(json!({"clear": true})), "plan": plan}).to_string().as_bytes(),
-            &RequestLimits::default(),
-        )
-    };
-    let step = json!({"action": "pick_drop", "object": "a", "from": {"x": 0.3, "y": 0.2}, "grasp": {"yaw": 1}, "drop_off": "tray"});
-    let stated = read(step.clone()).unwrap().statement;
-    assert_eq!((stated.steps()[0].object(), stated.steps()[0].rests_at()), ("a", None));
-    for (name, value, faults) in [
-        ("from", Value::Null, &[][..]),
-        ("drop_off", json!(5), &[("wrong_type", "/plan/relocations/0/drop_off")]),
-        ("to", json!({"x": 0, "y": 0}), &[("unknown_field", "/plan/relocations/0/to")]),
-        ("gap", json!(0.1), &[("unknown_field", "/plan/relocations/0/gap")]),
-    ] {
-        let mut step = step.clone();
-        step[name] = value;
-        match read(step) {
-            Ok(_) => assert!(faults.is_empty(), "{name}"),
-            Err(problem) => has_faults(&problem, faults),
-        }
-    }
-    for name in ["object", "grasp", "drop_off"] {
-        let mut step = step.clone();
-        step.as_object_mut().unwrap().remove(name);
-        has_faults(&read(step).unwrap_err(), &[("missing", &format!("/plan/relocations/0/{name}"))]);
-    }
 }
 
 #[test]

@@ -67,5 +67,11 @@ async fn a_scene_too_large_to_be_read_has_a_verdict_unless_its_answer_names_what
             reply.is_problem(503, "overloaded");
         }
     }
+    let mut narrow = clearing();
+    narrow["gripper"]["max_opening"] = json!(0.1);
+    narrow["settings"] = json!({"time_limit_ms": 50});
+    let survey = host.post("/v1/survey", &narrow).await.json();
+    assert_eq!(survey["objects"].as_array().unwrap().len(), 1, "plates are too wide: {survey}");
+    assert_eq!((&survey["objects"][0]["id"], &survey["objects"][0]["verdict"]), (&json!("cup"), &json!("timed_out")));
     drop(holder);
 }

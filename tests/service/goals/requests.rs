@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use super::{clearing, tray, wanting};
+use crate::document::COMMITTED;
 use crate::host::Host;
 use crate::jobs::crowded;
+use crate::schema::faults;
 
 #[tokio::test]
 async fn a_faulty_goal_is_told_at_its_place_on_every_path() {
@@ -21,6 +23,27 @@ async fn a_faulty_goal_is_told_at_its_place_on_every_path() {
     assert_eq!(host.post("/v1/plans/verify", &verify).await.pointers()[..2], below("/scene"));
     let batch = json!({"scenes": [crowded(), faulty]});
     assert_eq!(host.post("/v1/jobs/batch", &batch).await.pointers(), below("/scenes/1"));
+}
+
+#[tokio::test]
+async fn the_document_and_the_service_are_of_one_opinion_of_a_goal() {
+    let host = Host::start().await;
+    let document: Value = serde_json::from_str(COMMITTED).unwrap();
+    let schema = &document["components"]["schemas"]["GoalBody"];
+    for (goal, sound) in [
+        (json!({"any_of": ["cup"]}), true),
+        (json!({"all_of": ["cup", "plate-1"]}), true),
+        (json!({"clear": true}), true),
+        (json!({}), false),
+        (json!({"any_of": []}), false),
+        (json!({"any_of": ["cup"], "clear": true}), false),
+        (json!({"some_of": ["cup"]}), false),
+        (json!({"clear": "all"}), false),
+    ] {
+        assert_eq!(faults(&document, schema, &goal, "goal").is_empty(), sound, "{goal}");
+        let status = host.post("/v1/plans", &wanting(crowded(), goal.clone(), tray())).await.status;
+        assert_eq!(status, if sound { 200 } else { 422 }, "{goal}");
+    }
 }
 
 #[tokio::test]
