@@ -5,13 +5,13 @@ use rand_chacha::ChaCha8Rng;
 
 use super::arrange;
 use super::arrange::Disc;
-use super::recipe::{GenerateError, Recipe, rectangle};
+use super::recipe::{GenerateError, Recipe, Wanted, rectangle};
 use singulate_planner::scene::{
     GoalDraft, ObjectDraft, ObjectIndex, Scene, SceneDraft, SceneLimits, ShapeDraft, TableDraft,
 };
 
 /// Make the scene of `recipe` and `seed`. Ids are `o0`, `o1`, ...; all figures are whole micrometres; discs don't
-/// overlap and none hangs over the table's edge. The target is the most crowded object.
+/// overlap and none hangs over the table's edge. What the goal names are the most crowded objects that fit it.
 ///
 /// # Errors
 /// [`GenerateError`]; if the table is too full, with the number of objects that fitted.
@@ -23,15 +23,16 @@ pub fn generate(recipe: &Recipe, seed: u64) -> Result<SceneDraft, GenerateError>
     // These limits don't matter here: the reader of the scene has its own.
     let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
     let (scene, _) = Scene::new(draft.clone(), &limits).map_err(GenerateError::Scene)?;
-    let target = most_crowded(&scene);
-    let mut draft = SceneDraft { goal: draft.objects[target.get()].id.clone().map(GoalDraft::Target), ..draft };
+    let named = named(recipe, &scene)?;
+    let mut draft = SceneDraft { goal: Some(goal(recipe.wanted, &scene, &named)), ..draft };
     for (at, object) in draft.objects.iter_mut().enumerate() {
         let drawn: f64 = random.random();
-        object.fixed = drawn < recipe.fixed_share && at != target.get();
+        object.fixed = drawn < recipe.fixed_share && !named.contains(&ObjectIndex::new(at));
     }
     Ok(draft)
 }
 
+/// The scene before its goal is known: any object may be wanted.
 fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
     let object = |(at, disc): (usize, &Disc)| ObjectDraft {
         id: Some(format!("o{at}")),
@@ -41,45 +42,66 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
         fixed: false,
     };
     let (min, max) = recipe.corners();
+    let objects: Vec<ObjectDraft> = discs.iter().enumerate().map(object).collect();
     SceneDraft {
         table: TableDraft { top: rectangle(min, max), keep_out: Vec::new() },
         gripper: recipe.gripper,
-        objects: discs.iter().enumerate().map(object).collect(),
-        goal: Some(GoalDraft::Target("o0".to_owned())),
-        ..SceneDraft::default()
+        goal: Some(GoalDraft::AnyOf(objects.iter().map(|object| object.id.clone()).collect())),
+        objects,
+        drop_offs: (!recipe.drop_offs.is_empty()).then(|| recipe.drop_offs.clone()),
+        destination: recipe.destination,
     }
 }
 
-/// The object with the most neighbours in reach of its grasp; ties go to the one with the closest neighbours.
-fn most_crowded(scene: &Scene) -> ObjectIndex {
-    let crowd = |index: ObjectIndex| {
-        let footprint = scene.object(index).footprint();
-        let reach = scene.gripper().reach(&footprint);
-        let mut gaps: Vec<f64> = scene
-            .index()
-            .within(footprint.at(), reach)
-            .filter(|(other, _)| *other != index)
-            .map(|(_, other)| other.gap(&footprint))
-            .collect();
-        // Sums depend on the order of their terms, and the index gives them in no fixed order.
-        gaps.sort_unstable_by(f64::total_cmp);
-        (gaps.len(), gaps.iter().sum::<f64>())
-    };
-    let mut best = (ObjectIndex::new(0), crowd(ObjectIndex::new(0)));
-    for index in scene.indices().skip(1) {
-        let (count, gaps) = crowd(index);
-        if count > best.1.0 || (count == best.1.0 && gaps < best.1.1) {
-            best = (index, (count, gaps));
-        }
+/// The objects that the goal names, the most crowded first.
+fn named(recipe: &Recipe, scene: &Scene) -> Result<Vec<ObjectIndex>, GenerateError> {
+    let Some(wanted) = recipe.wanted.count() else { return Ok(Vec::new()) };
+    let goes = |object: &ObjectIndex| !matches!(recipe.wanted, Wanted::AllOf(_)) || accepted(scene, *object);
+    let fit = scene.indices().filter(|&object| scene.object(object).can_be_grasped()).filter(goes);
+    let mut crowds: Vec<_> = fit.map(|object| (object, crowd(scene, object))).collect();
+    if crowds.len() < wanted {
+        return Err(GenerateError::TooFewFit { fit: crowds.len(), wanted });
     }
-    best.0
+    crowds.sort_by(|(_, one), (_, other)| other.0.cmp(&one.0).then(one.1.total_cmp(&other.1)));
+    Ok(crowds.into_iter().take(wanted).map(|(object, _)| object).collect())
+}
+
+fn accepted(scene: &Scene, object: ObjectIndex) -> bool {
+    scene.drop_offs().iter().any(|drop_off| drop_off.accepts().is_none_or(|accepted| accepted.contains(&object)))
+}
+
+/// The number of neighbours in reach of a grasp, and their distances in all: of two crowds of as many, that with less
+/// distance is the closer one.
+fn crowd(scene: &Scene, index: ObjectIndex) -> (usize, f64) {
+    let footprint = scene.object(index).footprint();
+    let reach = scene.gripper().reach(&footprint);
+    let mut gaps: Vec<f64> = scene
+        .index()
+        .within(footprint.at(), reach)
+        .filter(|(other, _)| *other != index)
+        .map(|(_, other)| other.gap(&footprint))
+        .collect();
+    // Sums depend on the order of their terms, and the index gives them in no fixed order.
+    gaps.sort_unstable_by(f64::total_cmp);
+    (gaps.len(), gaps.iter().sum::<f64>())
+}
+
+fn goal(wanted: Wanted, scene: &Scene, named: &[ObjectIndex]) -> GoalDraft {
+    let id = |&object: &ObjectIndex| scene.object(object).id().to_owned();
+    let ids = || named.iter().map(|object| Some(id(object))).collect();
+    match wanted {
+        Wanted::Target => GoalDraft::Target(named.first().map(id).unwrap_or_default()),
+        Wanted::AnyOf(_) => GoalDraft::AnyOf(ids()),
+        Wanted::AllOf(_) => GoalDraft::AllOf(ids()),
+        Wanted::Clear => GoalDraft::Clear,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::experiments::recipe::Crowding;
-    use singulate_planner::scene::GripperDraft;
+    use singulate_planner::scene::{DropOffDraft, Goal, GripperDraft};
 
     fn scene(recipe: &Recipe, seed: u64) -> Scene {
         Scene::new(generate(recipe, seed).unwrap(), &SceneLimits { overlap_tolerance: 0.0, ..SceneLimits::default() })
@@ -147,20 +169,72 @@ mod tests {
     #[test]
     fn a_recipe_that_makes_no_sense_is_refused() {
         let sound = Recipe::default();
+        let tray = DropOffDraft { id: Some("tray".to_owned()), ..DropOffDraft::default() };
         let refused = [
-            Recipe { objects: 0, ..sound },
-            Recipe { radius: (0.2, 0.1), ..sound },
-            Recipe { radius: (f64::NAN, 0.1), ..sound },
-            Recipe { fixed_share: 1.5, ..sound },
-            Recipe { table: (-1.0, 1.0), ..sound },
-            Recipe { pressed_gap: -0.001, ..sound },
-            Recipe { origin: (f64::INFINITY, 0.0), ..sound },
+            Recipe { objects: 0, ..sound.clone() },
+            Recipe { radius: (0.2, 0.1), ..sound.clone() },
+            Recipe { radius: (f64::NAN, 0.1), ..sound.clone() },
+            Recipe { fixed_share: 1.5, ..sound.clone() },
+            Recipe { table: (-1.0, 1.0), ..sound.clone() },
+            Recipe { pressed_gap: -0.001, ..sound.clone() },
+            Recipe { wanted: Wanted::AnyOf(0), ..sound.clone() },
+            Recipe { wanted: Wanted::AllOf(0), drop_offs: vec![tray], ..sound.clone() },
+            Recipe { wanted: Wanted::AllOf(1), ..sound.clone() },
+            Recipe { wanted: Wanted::Clear, ..sound.clone() },
+            Recipe { origin: (f64::INFINITY, 0.0), ..sound.clone() },
         ];
         for recipe in refused {
             assert!(matches!(generate(&recipe, 0), Err(GenerateError::Recipe(_))), "{recipe:?}");
         }
         let gripper = GripperDraft { fingers: Some(99.0), ..sound.gripper };
-        assert!(matches!(generate(&Recipe { gripper, ..sound }, 0), Err(GenerateError::Scene(_))));
+        assert!(matches!(generate(&Recipe { gripper, ..sound.clone() }, 0), Err(GenerateError::Scene(_))));
+    }
+
+    /// A drop-off that takes these only.
+    fn drop_off(accepted: &[&str]) -> DropOffDraft {
+        let accepts = Some(accepted.iter().map(|id| Some((*id).to_owned())).collect());
+        DropOffDraft { id: Some("tray".to_owned()), capacity: None, accepts }
+    }
+
+    #[test]
+    fn a_goal_names_the_most_crowded_objects_and_none_of_them_is_fixed() {
+        let recipe = Recipe { fixed_share: 1.0, drop_offs: vec![drop_off(&["o1", "o2", "o3"])], ..Recipe::default() };
+        let named = |wanted, count| {
+            let scene = scene(&Recipe { wanted, ..recipe.clone() }, 2);
+            assert_eq!(scene.objects().iter().filter(|object| !object.fixed()).count(), count);
+            assert!(scene.goal().named().iter().all(|&object| !scene.object(object).fixed()));
+            scene.goal().clone()
+        };
+        let of = |positions: &[usize]| positions.iter().map(|&at| ObjectIndex::new(at)).collect::<Vec<_>>();
+        let Goal::Target(target) = named(Wanted::Target, 1) else { panic!("a target") };
+        assert_eq!(named(Wanted::AnyOf(1), 1), Goal::AnyOf(vec![target]));
+        let scene = scene(&recipe, 2);
+        let mut crowds: Vec<usize> = scene.indices().map(|object| crowd(&scene, object).0).collect();
+        let Goal::AnyOf(four) = named(Wanted::AnyOf(4), 4) else { panic!("a choice") };
+        let least = four.iter().map(|&object| crowd(&scene, object).0).min();
+        crowds.sort_unstable();
+        assert_eq!(least, Some(crowds[crowds.len() - 4]));
+        assert_eq!(named(Wanted::AllOf(3), 3), Goal::AllOf(of(&[1, 2, 3])), "no drop-off accepts others");
+        assert_eq!(named(Wanted::Clear, 0), Goal::Clear);
+        let few = generate(&Recipe { wanted: Wanted::AllOf(4), ..recipe.clone() }, 2);
+        assert_eq!(few, Err(GenerateError::TooFewFit { fit: 3, wanted: 4 }));
+    }
+
+    #[test]
+    fn only_what_the_hand_spans_is_wanted() {
+        let gripper = GripperDraft { max_opening: Some(0.1), ..Recipe::default().gripper };
+        let recipe = Recipe { radius: (0.03, 0.07), gripper, ..Recipe::default() };
+        for seed in 0..20 {
+            let draft = generate(&Recipe { gripper: Recipe::default().gripper, ..recipe.clone() }, seed).unwrap();
+            let fit = draft.objects.iter().filter(|object| object.shape.radius.unwrap() <= 0.05).count();
+            let scene = scene(&Recipe { wanted: Wanted::AnyOf(fit), ..recipe.clone() }, seed);
+            assert_eq!(scene.goal().named().len(), fit);
+            let more = generate(&Recipe { wanted: Wanted::AnyOf(fit + 1), ..recipe.clone() }, seed);
+            assert_eq!(more, Err(GenerateError::TooFewFit { fit, wanted: fit + 1 }));
+        }
+        let narrow = GripperDraft { max_opening: Some(0.01), ..recipe.gripper };
+        let none = generate(&Recipe { gripper: narrow, ..recipe }, 0);
+        assert!(matches!(none, Err(GenerateError::Scene(_))), "{none:?}");
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub use error::{EpisodeError, ExperimentError};
 pub use figures::{MethodFigures, ModelFigures, PlanFigures};
 pub use generate::generate;
 pub use papers_cases::{PAPERS_CASES, PapersCase, Printed, PrintedReposition, TABLE1_EPISODES, TABLE2_EPISODES};
-pub use recipe::{Crowding, GenerateError, Recipe};
+pub use recipe::{Crowding, GenerateError, Recipe, Wanted};
 pub use sample::{ConfidenceInterval, Spread};
 pub use table1::{Table1Column, table1};
 pub use table2::{PlacementFigures, Repositioning, Table2Column, table2};

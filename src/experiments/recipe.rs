@@ -4,7 +4,7 @@ use nalgebra::Point2;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use singulate_planner::scene::{Finding, GripperDraft, LENGTH_RANGE, RectangleDraft};
+use singulate_planner::scene::{Destination, DropOffDraft, Finding, GripperDraft, LENGTH_RANGE, RectangleDraft};
 
 /// The arrangement of the objects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -16,8 +16,22 @@ pub enum Crowding {
     Pressed,
 }
 
+/// What is wanted of a generated scene. Objects that it names are never fixed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Wanted {
+    /// The most crowded object that the hand spans, as the target.
+    #[default]
+    Target,
+    /// Any of so many: the most crowded objects that the hand spans. One or more.
+    AnyOf(usize),
+    /// All of so many: the most crowded objects that the hand spans and a drop-off accepts. One or more.
+    AllOf(usize),
+    /// A clear table.
+    Clear,
+}
+
 /// A kind of scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
     /// The number of objects, the target included.
     pub objects: usize,
@@ -35,6 +49,12 @@ pub struct Recipe {
     pub arrangement: Crowding,
     /// The largest gap between an object of a pressed cluster and its two supports, m.
     pub pressed_gap: f64,
+    /// What is wanted.
+    pub wanted: Wanted,
+    /// The drop-offs. Objects are called `o0`, `o1` and so on.
+    pub drop_offs: Vec<DropOffDraft>,
+    /// Where objects go that have to move; `None` for the default.
+    pub destination: Option<Destination>,
 }
 
 /// The paper's gripper and its Case I table with 16 objects.
@@ -57,6 +77,9 @@ impl Default for Recipe {
             fixed_share: 0.0,
             arrangement: Crowding::Loose,
             pressed_gap: 2e-3,
+            wanted: Wanted::Target,
+            drop_offs: Vec::new(),
+            destination: None,
         }
     }
 }
@@ -72,12 +95,36 @@ pub enum GenerateError {
         /// The number in the recipe.
         wanted: usize,
     },
+    /// Too few objects can be wanted.
+    #[error("{wanted} objects are wanted, and {fit} can be grasped and taken where they have to go")]
+    TooFewFit {
+        /// How many can be grasped, and where they are to be taken away, are accepted by a drop-off.
+        fit: usize,
+        /// How many the recipe wants.
+        wanted: usize,
+    },
     /// A figure of the recipe is invalid.
     #[error("{0}")]
     Recipe(&'static str),
     /// The table or the gripper of the scene is invalid.
     #[error("{}", .0.iter().map(|finding| finding.flaw.to_string()).collect::<Vec<_>>().join("; "))]
     Scene(Vec<Finding>),
+}
+
+impl Wanted {
+    /// How many objects the goal names; `None` if it names none.
+    pub(super) fn count(self) -> Option<usize> {
+        match self {
+            Self::Target => Some(1),
+            Self::AnyOf(count) | Self::AllOf(count) => Some(count),
+            Self::Clear => None,
+        }
+    }
+
+    /// True if the goal takes objects to drop-offs.
+    fn takes_away(self) -> bool {
+        matches!(self, Self::AllOf(_) | Self::Clear)
+    }
 }
 
 impl Recipe {
@@ -93,6 +140,8 @@ impl Recipe {
             (!(0.0..=1.0).contains(&self.fixed_share), "the fixed share is between 0 and 1"),
             (!(length(self.table.0) && length(self.table.1)), "a side of the table is between 1e-6 m and 1e3 m"),
             (!(0.0..=1e3).contains(&self.pressed_gap), "the gap is between 0 and 1e3 m"),
+            (self.wanted.count() == Some(0), "a goal names at least one object"),
+            (self.wanted.takes_away() && self.drop_offs.is_empty(), "to take objects away, the scene needs a drop-off"),
             (!(self.origin.0.is_finite() && self.origin.1.is_finite()), "the origin is not a place"),
         ];
         match faults.into_iter().find(|(wrong, _)| *wrong) {

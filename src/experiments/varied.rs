@@ -57,6 +57,7 @@ fn recipe(random: &mut ChaCha8Rng) -> Recipe {
         arrangement,
         // In contact nearly everything locks; with gaps of a finger's width there is something to plan.
         pressed_gap: if chance(random, 0.25) { 2e-3 } else { between(random, (0.5, 3.0)) * finger_width },
+        ..Recipe::default()
     }
 }
 

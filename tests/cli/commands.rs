@@ -139,6 +139,66 @@ fn generate_says_how_many_objects_fitted() {
 }
 
 #[test]
+fn generate_says_what_is_wanted_where_things_go_and_how_far_the_hand_opens() {
+    let generated = |flags: &[&str]| json(&answered(run(&[&["generate", "--seed", "7"], flags].concat())));
+    let plain = generated(&[]);
+    let trays = ["--drop-off", "tray:4", "--drop-off", "bin"];
+    let expected: Value = json(r#"[{"id": "tray", "capacity": 4}, {"id": "bin"}]"#);
+    let clear = generated(&[&["--clear"], &trays[..]].concat());
+    assert_eq!((&clear["goal"], &clear["drop_offs"]), (&json(r#"{"clear": true}"#), &expected));
+    assert_eq!((&clear["target"], &clear["settings"]), (&Value::Null, &Value::Null));
+    assert_eq!(clear["objects"], plain["objects"], "the same table");
+    let all = generated(&[&["--all-of", "2", "--destination", "drop_off"], &trays[..]].concat());
+    assert_eq!(all["settings"], json(r#"{"destination": "drop_off"}"#));
+    let ids = |list: &Value| -> Vec<Value> { list.as_array().unwrap().clone() };
+    let (two, three) = (ids(&all["goal"]["all_of"]), ids(&generated(&["--any-of", "3"])["goal"]["any_of"]));
+    assert_eq!((two.len(), three.len()), (2, 3));
+    assert!(two.iter().chain([&plain["target"]]).all(|id| three.contains(id)), "{two:?} {three:?}");
+    let hand = &generated(&["--max-opening", "0.2", "--opening", "full"])["gripper"];
+    assert_eq!((&hand["max_opening"], &hand["opening"]), (&0.2.into(), &"full".into()));
+    for scene in [&clear, &all] {
+        let verdict = json(&answered(run_with_input(&["plan", "-"], &scene.to_string())))["verdict"].clone();
+        assert!(["cleared", "relocate"].map(Value::from).contains(&verdict), "{verdict}");
+    }
+}
+
+#[test]
+fn generate_refuses_goals_and_drop_offs_that_make_no_sense() {
+    for (flags, detail) in [
+        (&["--any-of", "2", "--clear", "--drop-off", "tray"][..], "cannot be used with"),
+        (&["--any-of", "2", "--all-of", "2", "--drop-off", "tray"], "cannot be used with"),
+        (&["--clear"], "--drop-off <ID[:CAPACITY]>"),
+        (&["--all-of", "2"], "--drop-off <ID[:CAPACITY]>"),
+        (&["--destination", "table"], "--drop-off <ID[:CAPACITY]>"),
+        (&["--destination", "drop-off", "--drop-off", "tray"], "table_then_drop_off"),
+        (&["--opening", "full"], "--max-opening <M>"),
+        (&["--drop-off", "tray:few"], "'few' is no number of objects"),
+        (&["--drop-off", "tray:0"], "0 is not between 1 and 1000000000"),
+        (&["--drop-off", "tray", "--drop-off", "tray:2"], "'tray' is already the id of drop-off 0"),
+        (&["--any-of", "0"], "at least one object"),
+        (&["--any-of", "17"], "17 objects are wanted, and 16 can be grasped"),
+        (&["--max-opening", "0.1"], "0.150000 m wide, more than the greatest opening 0.1 m"),
+    ] {
+        let errors = failed(&run(&[&["generate"], flags].concat()), 2);
+        assert!(errors.contains(detail), "{flags:?}: {errors}");
+    }
+}
+
+#[test]
+fn a_table_that_is_cleared_is_told_and_drawn() {
+    let table = ["generate", "--objects", "8", "--clear", "--drop-off", "tray:3", "--drop-off", "bin:2"];
+    let scene = answered(run(&table));
+    let text = answered(run_with_input(&["plan", "-", "--format", "text"], &scene));
+    let page = include_str!("../../docs/command-line.md");
+    let shown = page.split_once("```text clearing\n").unwrap().1.split_once("```").unwrap().0;
+    assert_eq!(text.rsplit_once("\n\n").unwrap().0, shown.trim_end(), "without the times");
+    assert!(page.contains(&table.join(" ")));
+    let drawing = answered(run_with_input(&["plan", "-", "--format", "svg"], &scene));
+    let count = |class: &str| drawing.matches(&format!("class=\"{class}\"")).count();
+    assert_eq!((count("relocation"), count("tray"), count("route")), (5, 2, 5));
+}
+
+#[test]
 fn openapi_prints_the_committed_document() {
     assert_eq!(answered(run(&["openapi"])), include_str!("../../openapi/openapi.json"));
 }

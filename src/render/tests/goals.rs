@@ -2,7 +2,11 @@
 
 use super::rows::{GRASP, THREE, all, any, drawn, dropped, groups, number, placed, plan, row, sound};
 use super::*;
+use crate::experiments::{varied, wanting};
+use singulate_planner::budget::Budget;
+use singulate_planner::plan::{Settings, plan as planned};
 use singulate_planner::scene::{Destination, Opening};
+use singulate_planner::search::SILENT;
 
 #[test]
 fn the_chosen_candidate_is_marked_as_a_target_and_the_others_as_candidates() {
@@ -113,4 +117,25 @@ fn a_scene_where_all_leaves_the_table_shows_what_can_not() {
     // Candidates are only grasped: no drop-off has to accept them.
     assert_eq!(drawing.matches(&format!("fill=\"{}\"", paint::NOT_ACCEPTED.fill)).count(), 2);
     assert_eq!(groups(&drawing, "object target").len(), 2);
+}
+
+#[test]
+fn the_answer_to_any_goal_is_drawn_the_same_each_time() {
+    let mut verdicts = std::collections::HashMap::new();
+    for seed in 0..120 {
+        let (scene, _) = Scene::new(wanting(&varied(seed), seed), &SceneLimits::default()).unwrap();
+        let planned = planned(&scene, &Settings::default(), &Budget::unlimited(), SILENT).unwrap();
+        *verdicts.entry(planned.statement.verdict_name()).or_insert(0) += 1;
+        let judged = Judged::from(planned);
+        let drawing = svg(&scene, &judged);
+        parse(&drawing);
+        assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{seed}");
+        let dropped = judged.statement().steps().iter().filter(|step| step.rests_at().is_none()).count();
+        let steps = judged.statement().steps().len() - dropped + dropped.min(100);
+        assert_eq!(groups(&drawing, "route").len(), steps, "{seed}");
+        assert!(drawing == svg(&scene, &judged), "{seed}");
+    }
+    for verdict in ["graspable", "relocate", "deadlock", "cleared", "partly_cleared"] {
+        assert!(verdicts.contains_key(verdict), "{verdicts:?}");
+    }
 }
