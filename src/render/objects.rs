@@ -53,8 +53,8 @@ fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Gro
         let line = if paint == paint::TARGET { paint.line } else { paint::TARGET.fill };
         group = group.add(inner_ring(&footprint, 0.88, view, line));
     }
-    if roles.immovable(index).is_some() {
-        group = group.add(inner_ring(&footprint, 0.84, view, paint.line));
+    if let Some(why) = roles.immovable(index) {
+        group = group.add(inner_ring(&footprint, 0.84, view, ring_colour(why, paint)));
     }
     named(group, object.id(), &footprint, paint, view)
 }
@@ -74,6 +74,15 @@ fn look(role: Role, mark: Mark) -> (&'static str, Paint) {
         (Role::Stays(Stays::NoRoom), _) => ("object", paint::NO_ROOM),
         (Role::Stays(Stays::NotReached), _) => ("object", paint::NOT_REACHED),
         (Role::Moved | Role::Bystander, _) => ("object", paint::OBSTACLE),
+    }
+}
+
+/// Within a lock the second ring still shows that an object is too wide or accepted by no drop-off.
+fn ring_colour(why: Stays, paint: Paint) -> &'static str {
+    match why {
+        Stays::TooWide if paint != paint::TOO_WIDE => paint::TOO_WIDE_HATCH,
+        Stays::NotAccepted if paint != paint::NOT_ACCEPTED => paint::NOT_ACCEPTED_HATCH,
+        _ => paint.line,
     }
 }
 

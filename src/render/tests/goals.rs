@@ -86,6 +86,21 @@ fn what_a_clearing_leaves_shows_why() {
 }
 
 #[test]
+fn what_is_too_wide_is_seen_in_a_lock_too() {
+    let mut draft = row(&[("a", 0.08), ("wide", 0.15), ("fixed", 0.08)], GoalDraft::Clear, &[("tray", None, None)]);
+    draft.gripper.max_opening = Some(0.2);
+    let scene = sound(draft);
+    let lock = Some(Deadlock { blocked: ids(&scene, &[0, 1, 2]), core: ids(&scene, &[0, 1, 2]) });
+    let left = Some(ids(&scene, &[0, 1]));
+    let drawing = drawn(&scene, Statement { stuck: lock, left, ..plan(Verdict::PartlyCleared, Vec::new()) });
+    let circles = drawing.split("<circle ").skip(1).map(|rest| rest.split("/>").next().unwrap());
+    let rings: Vec<&str> = circles.filter(|circle| circle.contains("fill=\"none\"")).collect();
+    let count = |line: &str| rings.iter().filter(|ring| ring.contains(&format!("stroke=\"{line}\""))).count();
+    // The wide and the fixed object; the others are in the legend.
+    assert_eq!((count(paint::TOO_WIDE_HATCH), count(paint::CORE.line)), (1, 1), "{rings:?}");
+}
+
+#[test]
 fn fingers_that_open_fully_reach_as_far_at_a_small_object() {
     let mut draft = row(THREE, GoalDraft::Target("a".into()), &[]);
     draft.gripper = GripperDraft { max_opening: Some(0.3), opening: Some(Opening::Full), ..draft.gripper };
