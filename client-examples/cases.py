@@ -105,7 +105,8 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
         """The same table with a tray for two objects and a bin for any number."""
         drop_offs = [{"id": "tray", "capacity": 2}, {"id": "bin"}]
         table = json.loads(one_move.read_text())
-        return write(name, {**{key: table[key] for key in table if key != "target"}, "drop_offs": drop_offs, "goal": goal})
+        del table["target"]
+        return write(name, {**table, "drop_offs": drop_offs, "goal": goal})
 
     *lines, _ = (SCENES / "expected" / "one-move.txt").read_text().splitlines(keepends=True)
     moved = "".join(lines)

@@ -26,12 +26,15 @@ from singulate_client.models import (
     AnyObject,
     AnswerBody,
     BatchBody,
+    DeadlockBody,
     JobBody,
     JobListBody,
     JobSceneBody,
     JobsBody,
     JobStateWord,
     KnowledgeBody,
+    PickDropBody,
+    PickDropWord,
     PlanBody,
     ProbeBody,
     Problem,
@@ -96,6 +99,20 @@ def ask(client: AuthenticatedClient, scene: dict[str, Any], faulty: dict[str, An
     return answer
 
 
+def clear(client: AuthenticatedClient, scene: dict[str, Any]) -> None:
+    """A goal, drop-offs and a hand's greatest opening, and all that an answer says of a clearing."""
+    body = SceneBody.from_dict(scene)
+    answer = parsed(plan.sync_detailed(client=client, body=body), AnswerBody)
+    assert answer.verdict is VerdictWord.PARTLY_CLEARED and answer.proven is True
+    assert answer.target is None and answer.target_grasp is None
+    steps = [step for step in answer.relocations if isinstance(step, PickDropBody)]
+    assert len(steps) == len(answer.relocations) > 0 and steps[0].action is PickDropWord.PICK_DROP
+    assert {step.drop_off for step in steps} == {"tray", "bin"}
+    assert isinstance(answer.stuck, DeadlockBody) and answer.left == answer.stuck.core
+    stated = VerifyBody(scene=body, plan=PlanBody.from_dict(answer.to_dict()))
+    assert parsed(verify.sync_detailed(client=client, body=stated), VerificationBody).valid
+
+
 def hand_in(client: AuthenticatedClient, scene: dict[str, Any]) -> JobBody:
     body = JobSceneBody.from_dict(scene)
     key = str(uuid.uuid4())
@@ -130,19 +147,24 @@ def events(client: AuthenticatedClient, job: str) -> list[str]:
 
 
 def refuse_unknown(scene: dict[str, Any], answer: AnswerBody, job: JobBody) -> None:
-    """A verdict that the client does not know is an error in an answer; a job holds it, but not as an AnswerBody."""
-    unknown = answer.to_dict() | {"verdict": "perhaps"}
-    served = {"/v1/plans": unknown, f"/v1/jobs/{job.id}": job.to_dict() | {"result": unknown}}
-    transport = httpx.MockTransport(lambda request: httpx.Response(200, json=served[request.url.path]))
-    client = AuthenticatedClient("http://service", "", httpx_args={"transport": transport})
-    try:
-        plan.sync_detailed(client=client, body=SceneBody.from_dict(scene))
-    except ValueError as error:
-        assert "perhaps" in str(error), error
-    else:
-        raise AssertionError("a verdict that it does not know is no error")
-    result: object = parsed(show_job.sync_detailed(job.id, client=client), JobBody).result
-    assert not isinstance(result, AnswerBody) and result == unknown
+    """A verdict or an action that the client does not know is an error in an answer; a job holds it, but not as an
+    AnswerBody."""
+    known = answer.to_dict()
+    pushed = [{**step, "action": "push"} for step in known["relocations"]]
+    for unknown in (known | {"verdict": "perhaps"}, known | {"relocations": pushed}):
+        served = {"/v1/plans": unknown, f"/v1/jobs/{job.id}": job.to_dict() | {"result": unknown}}
+        transport = httpx.MockTransport(
+            lambda request, served=served: httpx.Response(200, json=served[request.url.path])
+        )
+        client = AuthenticatedClient("http://service", "", httpx_args={"transport": transport})
+        try:
+            plan.sync_detailed(client=client, body=SceneBody.from_dict(scene))
+        except (ValueError, KeyError):
+            pass
+        else:
+            raise AssertionError("what it does not know is no error")
+        result: object = parsed(show_job.sync_detailed(job.id, client=client), JobBody).result
+        assert not isinstance(result, AnswerBody) and result == unknown
 
 
 def main(document_path: str, scenes: str) -> None:
@@ -160,8 +182,10 @@ def main(document_path: str, scenes: str) -> None:
     )
     with client:
         probe(client, document)
-        scene, faulty = (json.loads(Path(scenes, name).read_text()) for name in ("one-move.json", "invalid.json"))
+        names = ("one-move", "invalid", "clear-table")
+        scene, faulty, full = (json.loads(Path(scenes, f"{name}.json").read_text()) for name in names)
         del faulty["colour"]
+        clear(client, full)
         refuse_unknown(scene, ask(client, scene, faulty), hand_in(client, scene))
     missed = sorted(known.keys() - called)
     assert not missed, f"operations that are never called: {missed}"

@@ -72,6 +72,18 @@ async function ask(scene: unknown, faulty: unknown): Promise<AnswerBody> {
   return answer;
 }
 
+/** A goal, drop-offs and a hand's greatest opening, and all that an answer says of a clearing. */
+async function clear(scene: unknown): Promise<void> {
+  const body = zSceneBody.parse(scene);
+  const answer = parsed(await api.plan({ body }));
+  assert.equal(answer.verdict, "partly_cleared");
+  assert.deepEqual([answer.proven, answer.target, answer.target_grasp], [true, null, null]);
+  const dropOffs = answer.relocations.map((step) => (step.action === "pick_drop" ? step.drop_off : undefined));
+  assert.deepEqual(new Set(dropOffs), new Set(["tray", "bin"]));
+  assert.deepEqual(answer.left, answer.stuck?.core);
+  assert(parsed(await api.verify({ body: { scene: body, plan: answer } })).valid);
+}
+
 async function handIn(scene: unknown): Promise<JobBody> {
   const body = zJobSceneBody.parse(scene);
   const headers = { "Idempotency-Key": randomUUID() };
@@ -101,14 +113,17 @@ async function handIn(scene: unknown): Promise<JobBody> {
   return ended;
 }
 
-/** A verdict that the client does not know is an error, not an answer: the validator sees to it. */
+/** A verdict or an action that the client does not know is an error, not an answer: the validator sees to it. */
 async function refuseUnknown(scene: unknown, answer: AnswerBody, job: JobBody): Promise<void> {
-  const unknown = { ...answer, verdict: "perhaps" };
   const served = (body: unknown) => async () => Response.json(body);
-  const planned = await api.plan({ body: zSceneBody.parse(scene), fetch: served(unknown) });
-  const shown = await api.showJob({ path: { id: job.id }, fetch: served({ ...job, result: unknown }) });
-  for (const outcome of [planned, shown]) {
-    assert(outcome.data === undefined && String(outcome.error).includes("verdict"), String(outcome.error));
+  const pushed = answer.relocations.map((step) => ({ ...step, action: "push" }));
+  for (const [part, value] of [["verdict", "perhaps"], ["relocations", pushed]] as const) {
+    const unknown = { ...answer, [part]: value };
+    const planned = await api.plan({ body: zSceneBody.parse(scene), fetch: served(unknown) });
+    const shown = await api.showJob({ path: { id: job.id }, fetch: served({ ...job, result: unknown }) });
+    for (const outcome of [planned, shown]) {
+      assert(outcome.data === undefined && String(outcome.error).includes(part), String(outcome.error));
+    }
   }
 }
 
@@ -132,6 +147,7 @@ async function main(documentPath: string, scenes: string): Promise<void> {
   const scene = { ...(read(`${scenes}/one-move.json`) as object), settings: { time_limit_ms: 1000 } };
   const { colour: _, ...faulty } = read(`${scenes}/invalid.json`) as { colour: unknown };
   await probe(document);
+  await clear(read(`${scenes}/clear-table.json`));
   const answer = await ask(scene, faulty);
   await refuseUnknown(scene, answer, await handIn(scene));
   assert.deepEqual([...missed.keys()], [], "operations that are never called");

@@ -133,9 +133,122 @@ fn a_plan_holds_to_its_end_though_each_move_is_a_little_off() {
 }
 
 #[test]
+fn the_hands_that_are_described_go_with_a_scene() {
+    let section = PAGE.split("\n## How do I describe my hand?\n").nth(1).unwrap().split("\n## ").next().unwrap();
+    let hands: Vec<Value> = section
+        .split('`')
+        .filter(|part| part.starts_with("{\"fingers\""))
+        .map(|part| serde_json::from_str(part).unwrap())
+        .collect();
+    assert_eq!(hands.len(), 2);
+    for hand in hands {
+        let mut scene = scene();
+        // The cup fits between the open fingers with 2 mm to spare, the others do not.
+        scene["objects"][0]["radius"] = (hand["max_opening"].as_f64().unwrap() / 2.0 - 0.001).into();
+        scene["gripper"] = hand;
+        let warnings = planned(&scene)["warnings"].clone();
+        let warned: Vec<[&Value; 2]> =
+            warnings.as_array().unwrap().iter().map(|warning| [&warning["code"], &warning["pointer"]]).collect();
+        let expected = (1..5).map(|n| [json!("too_wide"), json!(format!("/objects/{n}"))]).collect::<Vec<_>>();
+        assert_eq!(warned, expected.iter().map(|[code, pointer]| [code, pointer]).collect::<Vec<_>>());
+    }
+}
+
+#[test]
 fn a_request_is_as_large_as_is_said() {
     let (_, rest) = PAGE.split_once("`singulate generate ").unwrap();
     let arguments: Vec<&str> = rest.split(" \\|").next().unwrap().split(' ').collect();
     let length = answered(run(&[&["generate"][..], &arguments].concat())).len();
     assert!((4_500..5_500).contains(&length), "{length}");
+}
+
+/// What the loop that clears a table has in its hands.
+struct Cell {
+    /// The table as it is.
+    scene: Value,
+    /// How many more objects each drop-off takes.
+    room: Vec<(&'static str, u64)>,
+    /// Pictures that were taken.
+    pictures: usize,
+    plans: usize,
+    /// Where each object was taken.
+    taken: Vec<(String, String)>,
+}
+
+impl Cell {
+    /// The page's `perceive`, with the goal and what is left of the room: everything a little beside its place.
+    fn perceive(&mut self) -> Value {
+        self.pictures += 1;
+        let mut seen = self.scene.clone();
+        for (n, object) in seen["objects"].as_array_mut().unwrap().iter_mut().enumerate() {
+            // Together 1.5 mm, the page's `e_place`.
+            let error = if (n + self.pictures).is_multiple_of(2) { 0.001_06 } else { -0.001_06 };
+            for axis in ["x", "y"] {
+                object[axis] = json!(object[axis].as_f64().unwrap() + error);
+            }
+        }
+        let left = self.room.iter().filter(|(_, left)| *left > 0);
+        seen["drop_offs"] = left.map(|(id, left)| json!({"id": id, "capacity": left})).collect();
+        seen
+    }
+
+    fn take(&mut self, step: &Value) {
+        assert_eq!(step["action"], "pick_drop");
+        let (object, drop_off) = (step["object"].as_str().unwrap(), step["drop_off"].as_str().unwrap());
+        let objects = self.scene["objects"].as_array_mut().unwrap();
+        let at = objects.iter().position(|item| item["id"] == object).unwrap();
+        objects.remove(at);
+        let room = self.room.iter_mut().find(|(id, _)| *id == drop_off).unwrap();
+        room.1 -= 1;
+        self.taken.push((object.to_owned(), drop_off.to_owned()));
+    }
+
+    /// The page's loop; the lift of this step fails, counted over all plans. The last answer.
+    fn clear(&mut self, failing: usize) -> Value {
+        let mut lifts = 0;
+        loop {
+            let answer = planned(&self.perceive());
+            self.plans += 1;
+            let mut rest = answer.clone();
+            if rest["relocations"].as_array().unwrap().is_empty() {
+                return answer;
+            }
+            while !rest["relocations"].as_array().unwrap().is_empty() {
+                lifts += 1;
+                if lifts == failing {
+                    break;
+                }
+                let step = rest["relocations"].as_array_mut().unwrap().remove(0);
+                self.take(&step);
+                if replan(&self.perceive(), &rest) {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Whether what is left of a plan asks for a new one.
+fn replan(scene: &Value, rest: &Value) -> bool {
+    let scene = file("cleared.json", &scene.to_string());
+    let verify = ["verify", scene.to_str().unwrap(), "-", "--partial", "--position-tolerance", "0.0035"];
+    let verified: Value = serde_json::from_str(&answered(run_with_input(&verify, &rest.to_string()))).unwrap();
+    verified["replan"] == true
+}
+
+#[test]
+fn the_loop_takes_all_away_though_a_lift_fails_and_each_picture_is_a_little_off() {
+    assert!(block("text").contains("rest = answer\n    while rest.relocations is not empty"));
+    let mut scene = scene();
+    scene.as_object_mut().unwrap().remove("target");
+    scene["goal"] = json!({"clear": true});
+    let mut cell = Cell { scene, room: vec![("tray", 2), ("bin", 40)], pictures: 0, plans: 0, taken: Vec::new() };
+    let last = cell.clear(3);
+    assert_eq!(
+        (&last["verdict"], &last["proven"], last["left"].as_array().unwrap().len()),
+        (&json!("cleared"), &json!(true), 0)
+    );
+    assert_eq!(cell.taken.len(), 5);
+    assert_eq!(cell.taken.iter().filter(|(_, to)| to == "tray").count(), 2);
+    assert_eq!(cell.plans, 3, "one at the start, one after the failed lift, one that says that all is away");
 }

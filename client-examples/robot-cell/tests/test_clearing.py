@@ -75,9 +75,18 @@ def test_a_dish_that_is_lost_on_the_way_is_not_at_the_drop_off() -> None:
 def test_a_hand_that_always_opens_in_full_needs_the_room_for_it() -> None:
     half_turn = math.pi
     narrow = [("cup", *CUP), ("plate", CUP[0] - 2 * RADIUS - 0.055, CUP[1])]
-    assert not with_tray(*narrow).take_away("cup", Spot(*CUP, half_turn), "tray").contacts
-    wide = with_tray(*narrow, max_opening=0.17, opening="full")
-    assert (Phase.DESCENT, "finger", "plate") in hits(wide.take_away("cup", Spot(*CUP, half_turn), "tray"))
+    fit = with_tray(*narrow, max_opening=0.25)
+    assert not fit.take_away("cup", Spot(*CUP, half_turn), "tray").contacts
+    full = with_tray(*narrow, max_opening=0.25, opening="full")
+    assert (Phase.DESCENT, "finger", "plate") in hits(full.take_away("cup", Spot(*CUP, half_turn), "tray"))
+
+
+def test_no_hand_opens_wider_than_it_can() -> None:
+    """A cup that was seen 3 mm off its place has only 2 mm on each side."""
+    tight = with_tray(("cup", CUP[0] + 0.003, CUP[1]), max_opening=2 * RADIUS + 0.004)
+    assert (Phase.DESCENT, "finger", "cup") in hits(tight.take_away("cup", Spot(*CUP, 0.0), "tray"))
+    wide = with_tray(("cup", CUP[0] + 0.003, CUP[1]), max_opening=2 * RADIUS + 0.008)
+    assert not wide.take_away("cup", Spot(*CUP, 0.0), "tray").contacts
 
 
 def test_drop_offs_stand_apart_on_both_sides_of_the_table() -> None:

@@ -15,9 +15,7 @@ from singulate_ros.settings import Settings
 HEADER = Header(frame_id="world")
 SETTINGS = Settings(target="cup", fingers=3, finger_width=0.02, clearance=0.05, tool_z=0.92)
 # The same cell with a tray for two plates.
-DROPPING = replace(
-    SETTINGS, drop_offs=["tray"], drop_off_capacities=[2], drop_off_classes=["plate bowl"], drop_z=1.0
-)
+DROPPING = replace(SETTINGS, drop_offs=["tray"], drop_off_capacities=[2], drop_off_classes=["plate bowl"], drop_z=1.0)
 
 
 def pose(x: float, y: float, z: float, orientation: Quaternion | None = None) -> Pose:

@@ -91,7 +91,8 @@ class Cell:
 
     def take_away(self, name: str, grasp: Spot, drop_off: str) -> Outcome:
         """Picks the dish up at `grasp` and sets it down at the drop-off, where it is taken out of the world."""
-        return self._carry_out(Outcome(name, drop_off=drop_off), grasp, Spot(*self.world.drop_offs[drop_off], grasp.yaw))
+        release = Spot(*self.world.drop_offs[drop_off], grasp.yaw)
+        return self._carry_out(Outcome(name, drop_off=drop_off), grasp, release)
 
     def take(self, name: str, grasp: Spot) -> Outcome:
         """Lifts the target."""

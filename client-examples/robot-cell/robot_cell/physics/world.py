@@ -76,7 +76,9 @@ class World:
 
     def open_round(self, radius: float) -> float:
         """The hand's opening before it grasps a dish of this radius, m."""
-        return self.hand.open_for(opens_for(self.scene["gripper"], radius))
+        gripper = self.scene["gripper"]
+        greatest = float(gripper.get("max_opening", math.inf)) / 2
+        return min(self.hand.open_for(opens_for(gripper, radius)), greatest)
 
     @property
     def tallest(self) -> float:
