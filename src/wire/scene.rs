@@ -38,8 +38,8 @@ pub struct SceneBody {
     pub table: TableBody,
     /// The gripper.
     pub gripper: GripperBody,
-    /// The objects on the table, target included.
-    #[schema(min_items = 1, max_items = 10000, example = json!([
+    /// The objects on the table, target included. A table that is cleared may be empty.
+    #[schema(max_items = 10000, example = json!([
         {"id": "plate-1", "x": 0.31, "y": 0.22, "radius": 0.075},
         {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
     ]))]

@@ -47,6 +47,8 @@ fn cases() -> Vec<Case> {
     let mut stuck = wanting(example("deadlock"), json!({"clear": true}), tray());
     let far = json!({"id": "far", "x": stuck["table"]["x_max"], "y": stuck["table"]["y_max"], "radius": 0.01});
     stuck["objects"].as_array_mut().unwrap().push(far);
+    let mut empty = clearing();
+    empty["objects"] = json!([]);
     let only_cups = json!([{"id": "sink", "accepts": ["cup"]}]);
     vec![
         case(dropped, "relocate", &[&["deadlock", "needed"]]),
@@ -64,6 +66,7 @@ fn cases() -> Vec<Case> {
         case(wanting(example("deadlock"), all(&["plate-1"]), tray()), "deadlock", &[&LOCKED, &["target"]]),
         case(wanting(crowded(), all(&["cup", "plate-1"]), one.clone()), "no_space", &[&no_places, &["target"]]),
         case(clearing(), "cleared", &[&CLEARED, &["stuck"]]),
+        case(empty, "cleared", &[&CLEARED, &["stuck"]]),
         case(wanting(crowded(), json!({"clear": true}), one), "partly_cleared", &[&CLEARED, &["stuck"]]),
         case(wanting(crowded(), json!({"clear": true}), only_cups), "partly_cleared", &[&CLEARED]),
         case(wide, "partly_cleared", &[&CLEARED]),
