@@ -57,7 +57,8 @@ pub(super) fn panicked(request: &PlanRequest) -> Problem {
 
 fn written(request: &PlanRequest) -> String {
     // The effective settings are logged; without this one the scene might be refused when it is read again.
-    let settings = SettingsBody { overlap_tolerance: Some(request.overlap_tolerance), ..SettingsBody::default() };
     let scene = SceneBody::new(&request.scene, request.scene_id.as_deref());
+    let stated = scene.settings.clone().unwrap_or_default();
+    let settings = SettingsBody { overlap_tolerance: Some(request.overlap_tolerance), ..stated };
     serde_json::to_string(&SceneBody { settings: Some(settings), ..scene }).unwrap_or_default()
 }

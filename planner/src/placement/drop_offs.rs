@@ -3,7 +3,7 @@
 //! Drop-offs that accept some objects only, or hold some only, make this a bipartite matching with capacities. It grows by
 //! augmenting paths (Kuhn 1955): an object that is at a full drop-off moves on to another one where that makes room.
 
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
 
 use crate::scene::{ObjectIndex, Scene};
 
@@ -13,8 +13,8 @@ pub struct DropOffs<'a> {
     scene: &'a Scene,
     /// Those that accept any object.
     any: Vec<usize>,
-    /// Per object those that name it.
-    named: Vec<Vec<usize>>,
+    /// Per object those that name it. Only looked up.
+    named: HashMap<ObjectIndex, Vec<usize>>,
     /// Per drop-off what it holds.
     held: Vec<Vec<ObjectIndex>>,
     /// Drop-offs that stay full: no further path makes room there, since objects are only added.
@@ -31,10 +31,10 @@ struct Hop {
 impl<'a> DropOffs<'a> {
     /// The empty drop-offs of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        let (mut any, mut named) = (Vec::new(), vec![Vec::new(); scene.objects().len()]);
+        let (mut any, mut named) = (Vec::new(), HashMap::<_, Vec<usize>>::new());
         for (at, drop_off) in scene.drop_offs().iter().enumerate() {
             match drop_off.accepts() {
-                Some(objects) => objects.iter().for_each(|object| named[object.get()].push(at)),
+                Some(objects) => objects.iter().for_each(|&object| named.entry(object).or_default().push(at)),
                 None => any.push(at),
             }
         }
@@ -65,7 +65,7 @@ impl<'a> DropOffs<'a> {
 
     /// Notes the drop-offs to which the object of the hop can go. Returns the first with room.
     fn reach(&self, hop: Hop, hops: &mut [Option<Hop>], open: &mut VecDeque<usize>) -> Option<usize> {
-        let accepting = self.any.iter().chain(&self.named[hop.object.get()]).copied();
+        let accepting = self.any.iter().chain(self.named.get(&hop.object).into_iter().flatten()).copied();
         for at in accepting {
             if self.full[at] || hops[at].is_some() {
                 continue;
