@@ -179,6 +179,8 @@ def clearing_cases(proxy: Callable[..., Any], clear: Path) -> Iterator[Case]:
     for missing in ("left", "stuck", "proven"):
         torn = proxy(answer("partly_cleared", **{name: part for name, part in parts.items() if name != missing}))
         yield Case(f"partly cleared without {missing}", clear, "", 1, server=torn, check=counted(1))
+    perhaps = proxy(answer("partly_cleared", **{**parts, "proven": "perhaps"}))
+    yield Case("partly cleared, perhaps", clear, "", 1, server=perhaps, check=counted(1))
 
 
 def away_cases(proxy: Callable[..., Any], all_of: Path) -> Iterator[Case]:
