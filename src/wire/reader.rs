@@ -237,6 +237,17 @@ impl Fields<'_> {
         faults.add(ErrorCode::ConflictingFields, &self.path.field(name), detail);
     }
 
+    /// Note that neither of two fields is there.
+    pub(super) fn missing_one_of(&self, [name, other]: [&'static str; 2], faults: &mut RequestFaults) {
+        let detail = format_args!("one of the fields '{name}' and '{other}' is required");
+        faults.add(ErrorCode::Missing, &self.path.field(name), detail);
+    }
+
+    /// True if the field is present, even if it is null.
+    pub(super) fn has(&self, name: &'static str) -> bool {
+        self.object.get(name).is_some()
+    }
+
     /// Note that a field is missing.
     pub(super) fn missing(&self, name: &'static str, faults: &mut RequestFaults) {
         faults.add(ErrorCode::Missing, &self.path.field(name), format_args!("the field '{name}' is required"));

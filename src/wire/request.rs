@@ -59,8 +59,8 @@ pub(super) fn request(
     let draft = SceneDraft {
         table: table.unwrap_or_default(),
         gripper: gripper.unwrap_or_default(),
-        // Without a list of objects, the goal can't be checked.
-        goal: goal.filter(|_| objects.is_some()),
+        // Without the objects, or the drop-offs that are stated, the goal can't be checked.
+        goal: goal.filter(|_| objects.is_some() && fields.states("drop_offs") == drop_offs.is_some()),
         objects: objects.unwrap_or_default(),
         drop_offs,
         destination: None,
@@ -72,6 +72,10 @@ pub(super) fn request(
 
 /// The target, or the goal of another kind.
 fn wanted(fields: &Fields<'_>, faults: &mut RequestFaults) -> Option<GoalDraft> {
+    if !fields.states("goal") && !fields.has("target") {
+        fields.missing_one_of(["target", "goal"], faults);
+        return None;
+    }
     if !fields.states("goal") {
         return fields.required("target", faults, |node, faults| node.text(faults)).map(GoalDraft::Target);
     }
@@ -118,7 +122,7 @@ fn rectangle(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<Rectangle
 
 fn gripper(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<GripperDraft> {
     let fields = node.fields(&GRIPPER, faults)?;
-    Some(GripperDraft {
+    let draft = GripperDraft {
         fingers: fields.number("fingers", faults),
         finger_width: fields.number("finger_width", faults),
         clearance: fields.number("clearance", faults),
@@ -126,7 +130,10 @@ fn gripper(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<GripperDraf
         yaw_tolerance: fields.optional("yaw_tolerance", 0.0, faults, |node, faults| node.number(faults)),
         max_opening: fields.stated("max_opening", faults, |node, faults| node.number(faults)),
         opening: fields.stated("opening", faults, |node, faults| node.word(&OPENINGS, faults)),
-    })
+    };
+    // Where the greatest opening can't be read, nobody asks for it.
+    let readable = fields.states("max_opening") == draft.max_opening.is_some();
+    Some(GripperDraft { opening: draft.opening.filter(|_| readable), ..draft })
 }
 
 fn objects(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<Vec<ObjectDraft>> {

@@ -5,6 +5,8 @@
 
 use std::collections::{HashMap, VecDeque};
 
+use smallvec::SmallVec;
+
 use crate::scene::{ObjectIndex, Scene};
 
 /// Objects at drop-offs, each at one that accepts it, none over its capacity.
@@ -63,9 +65,11 @@ impl<'a> DropOffs<'a> {
         false
     }
 
-    /// Notes the drop-offs to which the object of the hop can go. Returns the first with room.
+    /// Notes the drop-offs to which the object of the hop can go, in the caller's order. Returns the first with room.
     fn reach(&self, hop: Hop, hops: &mut [Option<Hop>], open: &mut VecDeque<usize>) -> Option<usize> {
-        let accepting = self.any.iter().chain(self.named.get(&hop.object).into_iter().flatten()).copied();
+        let named = self.named.get(&hop.object).into_iter().flatten();
+        let mut accepting: SmallVec<[usize; 8]> = self.any.iter().chain(named).copied().collect();
+        accepting.sort_unstable();
         for at in accepting {
             if self.full[at] || hops[at].is_some() {
                 continue;
@@ -133,6 +137,14 @@ mod tests {
         let scene = scene(&[(1, None), (2, Some(&["d0", "d1"])), (1, Some(&["d1", "d2"]))]);
         // d0 goes to t0 and moves on for d3; d1 goes to t1 and moves on for nobody.
         assert_eq!(takes(&scene, &[0, 1, 3, 2]), [true; 4]);
+    }
+
+    #[test]
+    fn the_first_drop_off_with_room_takes_it() {
+        let scene = scene(&[(1, Some(&["d0", "d1"])), (4, None)]);
+        let mut drop_offs = DropOffs::new(&scene);
+        assert!((0..3).all(|at| drop_offs.take(ObjectIndex::new(at))));
+        assert_eq!(drop_offs.places(), [Some(0), Some(1), Some(1), None]);
     }
 
     #[test]

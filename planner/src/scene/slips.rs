@@ -46,6 +46,10 @@ pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warni
     if tolerance >= PI / f64::from(fingers) {
         warnings.add(Place::Gripper("yaw_tolerance"), Flaw::WideYawTolerance { tolerance, fingers });
     }
+    if objects.is_empty() {
+        // A cleared table has nothing to compare with.
+        return;
+    }
     let scale = Scale::new(top, objects);
     // A hand is as large as what it spans: half of its opening compares with a radius.
     let half_opening = gripper.max_opening.unwrap_or_default() / 2.0;
