@@ -101,7 +101,7 @@ fn staying(stated: &Statement, roles: &Roles<'_>) -> Vec<(Sign, &'static str)> {
         signs.push((Sign::Disc(paint::NO_ROOM), "no room in a drop-off"));
     }
     if roles.any(Role::Stays(Stays::NotReached)) {
-        signs.push((Sign::Disc(paint::NOT_REACHED), "could go, but is not reached"));
+        signs.push((Sign::Disc(paint::NOT_REACHED), "not reached: others in its way, or no time"));
     }
     signs
 }

@@ -132,6 +132,8 @@ fn a_scene_where_all_leaves_the_table_shows_what_can_not() {
     // Candidates are only grasped: no drop-off has to accept them.
     assert_eq!(drawing.matches(&format!("fill=\"{}\"", paint::NOT_ACCEPTED.fill)).count(), 2);
     assert_eq!(groups(&drawing, "object target").len(), 2);
+    let says = |id: &str| drawing.contains(&format!("<title>{id}: accepted by no drop-off</title>"));
+    assert_eq!(["a", "b", "c"].map(says), [false, false, true]);
 }
 
 #[test]

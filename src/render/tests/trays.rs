@@ -15,6 +15,7 @@ fn a_step_off_the_table_leads_from_its_old_place_into_its_tray() {
     let trays = groups(&drawing, "tray");
     let routes = groups(&drawing, "route");
     assert_eq!((trays.len(), routes.len()), (2, 3));
+    assert!(number(trays[0], "x") + number(trays[0], "width") < number(trays[1], "x"), "side by side");
     let stated = plan(Verdict::Relocate, Vec::new());
     let view = View::new(&scene, &stated, &Roles::new(&scene, &stated), 0.0);
     let (_, top, _, height) = view.frame();
