@@ -140,7 +140,10 @@ impl Sound {
         if self.covers(&members, ticker)? {
             return Ok(());
         }
-        if let Some(reached) = chain.reaches_goal(scene, allowed, &members, ticker)? {
+        // What is to be taken away is held: no chaining reaches the goal.
+        let held = members.iter().any(|member| scene.goal().wants_away(*member));
+        let reached = if held { None } else { chain.reaches_goal(scene, allowed, &members, ticker)? };
+        if let Some(reached) = reached {
             let detail = || format!("landmark {at} can be left as it stands: {}", how(scene, &reached));
             faults.of_answer(FaultCode::LandmarkRefuted, detail);
             return Ok(());

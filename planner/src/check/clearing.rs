@@ -85,10 +85,6 @@ impl Clearing<'_> {
                 let detail = || "it could not be confirmed that no order takes more away".to_owned();
                 faults.of_answer(FaultCode::ProvenUnconfirmed, detail);
             }
-            (Some(false), Ok(Shown::NoneGoes)) => {
-                let detail = || "no order takes more away, and 'proven' says that it is not known".to_owned();
-                faults.of_answer(FaultCode::WrongProven, detail);
-            }
             _ => {}
         }
         Ok(matches!(shown?, Shown::NoneGoes))

@@ -96,11 +96,13 @@ pub enum FaultCode {
     OverCapacity,
     /// An object that is to be taken away still stands on the table.
     WantedLeft,
+    /// The object that is grasped in the end is no candidate of the goal.
+    WrongTarget,
     /// The verdict does not go with the goal, or with what is left.
     WrongVerdict,
     /// `left` is not what the steps leave.
     WrongLeft,
-    /// An order takes more away, or it is shown that none does and the answer says otherwise.
+    /// An order takes more away than the answer says.
     WrongProven,
     /// It could not be confirmed that no order takes more away.
     ProvenUnconfirmed,
@@ -149,6 +151,7 @@ impl FaultCode {
             Self::NotAccepted => "not_accepted",
             Self::OverCapacity => "over_capacity",
             Self::WantedLeft => "wanted_left",
+            Self::WrongTarget => "wrong_target",
             Self::WrongVerdict => "wrong_verdict",
             Self::WrongLeft => "wrong_left",
             Self::WrongProven => "wrong_proven",

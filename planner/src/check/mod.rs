@@ -117,7 +117,8 @@ impl<'s> Checker<'s> {
         let needed = match &statement.needed {
             Some(ids) => {
                 let rings = free.get_or_insert_with(|| Rings::new(self.scene, start, Leaning::Free));
-                needed::check(scene, (names, allowed), ids, rings, &mut faults, &mut ticker)
+                let stated = (ids.as_slice(), statement.target.as_deref());
+                needed::check(scene, (names, allowed), stated, rings, &mut faults, &mut ticker)
             }
             None => Ok(()),
         };

@@ -23,13 +23,14 @@ struct Moving<'a, 's> {
 pub(super) fn check<'s>(
     scene: &Scene,
     (names, allowed): (&ObjectNames<'s>, &Allowed<'s>),
-    ids: &[String],
+    (ids, target): (&[String], Option<&str>),
     rings: &mut Rings<'s>,
     faults: &mut Faults,
     ticker: &mut Ticker<'_>,
 ) -> Result<(), Interrupted> {
     let mut moving = Moving { scene, names, allowed, rings, moved: vec![false; scene.objects().len()] };
-    let checked = moving.all(ids, faults, ticker);
+    let target = target.and_then(|id| names.find(id)).filter(|object| scene.goal().is_candidate(*object));
+    let checked = moving.all(ids, faults, ticker).and_then(|()| moving.goal(target, faults, ticker));
     if checked.is_err() {
         faults.of_answer(FaultCode::NeededUnconfirmed, || "time ran out before all needed objects were lifted".into());
     }
@@ -52,7 +53,7 @@ impl Moving<'_, '_> {
             }
             self.moved[object.get()] = movable;
         }
-        self.goal(faults, ticker)
+        Ok(())
     }
 
     fn can_be_moved(&mut self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<bool, Interrupted> {
@@ -60,14 +61,20 @@ impl Moving<'_, '_> {
         Ok(way(self.rings, &ring, |other| !self.moved[other.get()]).is_some())
     }
 
-    /// A candidate can be grasped, and all that is to be taken away was moved.
-    fn goal(&mut self, faults: &mut Faults, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
+    /// The stated target, or else some candidate, can be grasped, and all that is to be taken away was moved.
+    fn goal(
+        &mut self,
+        target: Option<ObjectIndex>,
+        faults: &mut Faults,
+        ticker: &mut Ticker<'_>,
+    ) -> Result<(), Interrupted> {
         let (scene, goal) = (self.scene, self.scene.goal());
         for &object in goal.wanted_away().iter().filter(|object| !self.moved[object.get()]) {
             let detail = || "is wanted and not among the needed objects".to_owned();
             faults.of_object(FaultCode::WrongNeeded, scene.object(object).id(), detail);
         }
-        for &candidate in goal.candidates() {
+        let stated = target.as_slice();
+        for &candidate in if stated.is_empty() { goal.candidates() } else { stated } {
             let ring = self.ring(candidate, ticker)?;
             if grasp(self.rings, &ring, |other| !self.moved[other.get()]).is_some() {
                 return Ok(());

@@ -75,6 +75,7 @@ fn of_goal(scene: &Scene, statement: &Statement, faults: &mut Faults) {
     let grasps = !scene.goal().candidates().is_empty();
     let parts = [
         ("target_grasp", statement.target_grasp.is_some() && !grasps),
+        ("target", statement.target.is_some() && (!grasps || statement.deadlock.is_some())),
         ("lower_bound", statement.lower_bound.is_some() && clears),
         ("optimal", statement.optimal.is_some() && clears),
         ("landmarks", statement.landmarks.is_some() && clears),

@@ -114,7 +114,12 @@ impl Replay<'_> {
         match self.scene.goal() {
             Goal::Target(target) => self.target_grasp(Some(*target), statement, ends),
             Goal::AnyOf(_) => {
-                let chosen = statement.target.as_deref().and_then(|id| self.names.known(id, None, self.faults));
+                let known = statement.target.as_deref().and_then(|id| self.names.known(id, None, self.faults));
+                let chosen = known.filter(|object| self.scene.goal().is_candidate(*object));
+                if let Some(other) = known.filter(|_| chosen.is_none()) {
+                    let detail = || "is no candidate of the goal".to_owned();
+                    self.faults.of_object(FaultCode::WrongTarget, self.scene.object(other).id(), detail);
+                }
                 self.target_grasp(chosen, statement, ends)
             }
             Goal::AllOf(wanted) => {

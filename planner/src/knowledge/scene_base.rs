@@ -97,7 +97,9 @@ pub fn of_goal(
         base.push_same(&reached, (!goal.is_candidate(object)).then_some(object));
     }
     budget.check()?;
-    let without_candidates = |option: &&[ObjectIndex]| !option.iter().any(|&member| goal.is_candidate(member));
+    // A rule with a member that nothing moves never fires.
+    let moves = |member: &ObjectIndex| !goal.is_candidate(*member) && !reached.rules_of(*member).is_empty();
+    let without_candidates = |option: &&[ObjectIndex]| option.iter().all(moves);
     let bodies = goal.candidates().iter().flat_map(|&candidate| reached.options(candidate).filter(without_candidates));
     let all = (!goal.wanted_away().is_empty()).then(|| goal.wanted_away().to_vec());
     base.push(bodies.map(<[_]>::to_vec).chain(all).collect());

@@ -6,7 +6,7 @@ use super::drop_offs::DropOffs;
 use super::effort::{Effort, EffortMeter};
 use super::task::{Arrangement, Task};
 use super::{GAPS, ROOMIER_GAPS};
-use crate::budget::{Budget, Interrupted, Stop};
+use crate::budget::{Budget, Interrupted, Stop, Ticker};
 
 /// The width of the last round. Past that, other sets and extra moves promise more than further places of the same
 /// kind.
@@ -23,7 +23,8 @@ pub fn arrange(task: &Task<'_>, effort: &mut Effort, budget: &Budget<'_>) -> Res
     }
     // By a copy of the effort, and whatever the budget says: more room must not cost a plan.
     let roomier = arrange_with(task, &ROOMIER_GAPS, &mut { *effort }, budget).ok().flatten();
-    Ok(Some(roomier.filter(|other| other.least_gap() > found.least_gap()).unwrap_or(found)))
+    let better = |other: &Arrangement| other.least_gap() > found.least_gap() && other.drops() <= found.drops();
+    Ok(Some(roomier.filter(better).unwrap_or(found)))
 }
 
 fn arrange_with(
@@ -33,8 +34,11 @@ fn arrange_with(
     budget: &Budget<'_>,
 ) -> Result<Option<Arrangement>, Interrupted> {
     let mut drop_offs = DropOffs::new(task.scene);
-    if !task.set.iter().filter(|object| task.leaves(**object)).all(|&object| drop_offs.take(object)) {
-        return Ok(None);
+    let mut ticker = Ticker::new(budget);
+    for &object in task.set.iter().filter(|object| task.leaves(**object)) {
+        if !drop_offs.take(object, |looks| ticker.step(looks))? {
+            return Ok(None);
+        }
     }
     let mut width = 1;
     loop {

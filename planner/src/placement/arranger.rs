@@ -144,7 +144,7 @@ impl<'a, 'e> Arranger<'a, 'e> {
         let scene = self.task.scene;
         let other = |object: &ObjectIndex| {
             scene.movable(*object)
-                && !scene.goal().is_candidate(*object)
+                && self.task.kept.binary_search(object).is_err()
                 && !remaining.contains(object)
                 && !self.table.layout.is_lifted(*object)
         };
@@ -193,7 +193,7 @@ impl<'a, 'e> Arranger<'a, 'e> {
         let Drops::UpTo(most) = self.task.drops else { return Ok(None) };
         let Some(held) = self.drop_offs.last().filter(|_| self.drop_offs.len() <= most) else { return Ok(None) };
         let mut held = held.clone();
-        if !held.take(object) {
+        if !held.take(object, |looks| self.table.spend(looks))? {
             return Ok(None);
         }
         self.drop_offs.push(held);

@@ -4,8 +4,7 @@
 //! augmenting paths (Kuhn 1955): an object that is at a full drop-off moves on to another one where that makes room.
 
 use std::collections::{HashMap, VecDeque};
-
-use smallvec::SmallVec;
+use std::rc::Rc;
 
 use crate::scene::{ObjectIndex, Scene};
 
@@ -13,14 +12,19 @@ use crate::scene::{ObjectIndex, Scene};
 #[derive(Clone)]
 pub struct DropOffs<'a> {
     scene: &'a Scene,
-    /// Those that accept any object.
-    any: Vec<usize>,
-    /// Per object those that name it. Only looked up.
-    named: HashMap<ObjectIndex, Vec<usize>>,
+    takers: Rc<Takers>,
     /// Per drop-off what it holds.
     held: Vec<Vec<ObjectIndex>>,
     /// Drop-offs that stay full: no further path makes room there, since objects are only added.
     full: Vec<bool>,
+}
+
+/// The drop-offs that accept each object.
+struct Takers {
+    /// Those that accept any object.
+    any: Vec<usize>,
+    /// Per object those that name it. Only looked up.
+    named: HashMap<ObjectIndex, Vec<usize>>,
 }
 
 /// How a path reached a drop-off: with this object, from the drop-off where it is.
@@ -29,6 +33,9 @@ struct Hop {
     object: ObjectIndex,
     from: Option<usize>,
 }
+
+/// Objects and drop-offs that are looked at for one unit of work.
+const LOOKS: usize = 16;
 
 impl<'a> DropOffs<'a> {
     /// The empty drop-offs of a scene.
@@ -41,36 +48,55 @@ impl<'a> DropOffs<'a> {
             }
         }
         let count = scene.drop_offs().len();
-        Self { scene, any, named, held: vec![Vec::new(); count], full: vec![false; count] }
+        let takers = Rc::new(Takers { any, named });
+        Self { scene, takers, held: vec![Vec::new(); count], full: vec![false; count] }
     }
 
     /// Takes one object more. False if there is no room for it, however the others are distributed; then nothing changes.
-    pub fn take(&mut self, object: ObjectIndex) -> bool {
+    /// `charge` is told of the work, in units of less than a microsecond.
+    ///
+    /// # Errors
+    /// That of `charge`.
+    pub fn take<E>(&mut self, object: ObjectIndex, mut charge: impl FnMut(usize) -> Result<(), E>) -> Result<bool, E> {
+        let takers = Rc::clone(&self.takers);
+        let named = |object: ObjectIndex| takers.named.get(&object).map_or(&[][..], Vec::as_slice);
         let mut hops: Vec<Option<Hop>> = vec![None; self.held.len()];
         let mut open = VecDeque::new();
-        if let Some(free) = self.reach(Hop { object, from: None }, &mut hops, &mut open) {
-            self.shift(free, &hops);
-            return true;
-        }
-        while let Some(at) = open.pop_front() {
+        // The caller's order decides.
+        let mut accepting: Vec<usize> = takers.any.iter().chain(named(object)).copied().collect();
+        accepting.sort_unstable();
+        charge(1 + accepting.len() / LOOKS)?;
+        let mut free = self.reach(Hop { object, from: None }, &accepting, &mut hops, &mut open);
+        let mut looks = 0;
+        while let Some(at) = open.pop_front().filter(|_| free.is_none()) {
             for place in 0..self.held[at].len() {
-                let hop = Hop { object: self.held[at][place], from: Some(at) };
-                if let Some(free) = self.reach(hop, &mut hops, &mut open) {
-                    self.shift(free, &hops);
-                    return true;
+                let other = self.held[at][place];
+                let hop = Hop { object: other, from: Some(at) };
+                looks += 1 + named(other).len();
+                // Those that accept any object were reached by the first hop.
+                free = self.reach(hop, named(other), &mut hops, &mut open);
+                if free.is_some() {
+                    break;
                 }
             }
+            charge(core::mem::take(&mut looks) / LOOKS)?;
         }
-        hops.iter().zip(&mut self.full).for_each(|(hop, full)| *full |= hop.is_some());
-        false
+        match free {
+            Some(free) => self.shift(free, &hops),
+            None => hops.iter().zip(&mut self.full).for_each(|(hop, full)| *full |= hop.is_some()),
+        }
+        Ok(free.is_some())
     }
 
-    /// Notes the drop-offs to which the object of the hop can go, in the caller's order. Returns the first with room.
-    fn reach(&self, hop: Hop, hops: &mut [Option<Hop>], open: &mut VecDeque<usize>) -> Option<usize> {
-        let named = self.named.get(&hop.object).into_iter().flatten();
-        let mut accepting: SmallVec<[usize; 8]> = self.any.iter().chain(named).copied().collect();
-        accepting.sort_unstable();
-        for at in accepting {
+    /// Notes the drop-offs to which the object of the hop can go. Returns the first with room.
+    fn reach(
+        &self,
+        hop: Hop,
+        accepting: &[usize],
+        hops: &mut [Option<Hop>],
+        open: &mut VecDeque<usize>,
+    ) -> Option<usize> {
+        for &at in accepting {
             if self.full[at] || hops[at].is_some() {
                 continue;
             }
@@ -120,9 +146,13 @@ mod tests {
         scene.build("d0")
     }
 
+    fn take(drop_offs: &mut DropOffs<'_>, at: usize) -> bool {
+        drop_offs.take(ObjectIndex::new(at), |_| Ok::<(), ()>(())).unwrap()
+    }
+
     fn takes(scene: &Scene, order: &[usize]) -> Vec<bool> {
         let mut drop_offs = DropOffs::new(scene);
-        let taken: Vec<bool> = order.iter().map(|&at| drop_offs.take(ObjectIndex::new(at))).collect();
+        let taken: Vec<bool> = order.iter().map(|&at| take(&mut drop_offs, at)).collect();
         for (at, held) in drop_offs.held.iter().enumerate() {
             let drop_off = &scene.drop_offs()[at];
             assert!(drop_off.capacity().is_none_or(|capacity| held.len() as u64 <= capacity));
@@ -143,7 +173,7 @@ mod tests {
     fn the_first_drop_off_with_room_takes_it() {
         let scene = scene(&[(1, Some(&["d0", "d1"])), (4, None)]);
         let mut drop_offs = DropOffs::new(&scene);
-        assert!((0..3).all(|at| drop_offs.take(ObjectIndex::new(at))));
+        assert!((0..3).all(|at| take(&mut drop_offs, at)));
         assert_eq!(drop_offs.places(), [Some(0), Some(1), Some(1), None]);
     }
 

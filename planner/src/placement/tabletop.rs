@@ -25,6 +25,11 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Self { layout, meter }
     }
 
+    /// Spends effort on what is no test of a grasp or a place.
+    pub(super) fn spend(&mut self, effort: usize) -> Result<(), Stop> {
+        self.meter.spend(effort)
+    }
+
     /// The widest grasp of an object where it stands.
     pub(super) fn grasp(&mut self, object: ObjectIndex) -> Result<Option<Grasp>, Stop> {
         self.meter.spend(GRASP_EFFORT)?;

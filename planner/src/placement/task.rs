@@ -27,6 +27,8 @@ pub struct Task<'a> {
     pub model: &'a dyn GraspModel,
     /// The objects to move, in an order in which each becomes graspable.
     pub set: &'a [ObjectIndex],
+    /// Objects that are never moved, in index order: all that may be grasped in the end.
+    pub kept: &'a [ObjectIndex],
     /// The most extra relocations beyond those of the set: of objects that only stand in the way of a place, or of
     /// objects that were moved before.
     pub extra: usize,
@@ -46,6 +48,11 @@ pub struct Arrangement {
 }
 
 impl Arrangement {
+    /// The number of objects that leave the table.
+    pub(super) fn drops(&self) -> usize {
+        self.moves.iter().filter(|step| matches!(step, Move::Drop(_))).count()
+    }
+
     /// The least gap at a new place, m; infinite if there is none.
     pub(super) fn least_gap(&self) -> f64 {
         let gap = |step: &Move| if let Move::Place(relocation) = step { relocation.gap } else { f64::INFINITY };

@@ -9,6 +9,8 @@ use crate::search::Derivation;
 
 /// The effort for one set, so that other sets get their turn.
 const MAX_EFFORT_PER_SET: u32 = 100_000;
+/// Less than this does not even try one grasp.
+const LEAST_EFFORT: u32 = 8;
 /// Extra effort per move, for both limits: a long plan needs many places, each found among the earlier ones.
 const EFFORT_PER_STEP: u32 = 10_000;
 
@@ -83,7 +85,7 @@ impl Attempt<'_> {
     fn all(&self, effort: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
         let Question { objective, .. } = *self.question;
         match self.scene.destination() {
-            Destination::DropOff => self.with(objective, Drops::All, &mut self.part(effort), budget),
+            Destination::DropOff => self.with(objective, Drops::All, effort, budget),
             Destination::Table => self.on_table(effort, budget),
             Destination::TableThenDropOff => {
                 if let Some(found) = self.on_table(effort, budget)? {
@@ -91,15 +93,16 @@ impl Attempt<'_> {
                 }
                 let mut part = self.part(effort);
                 for most in 1..=self.set.order.len() {
-                    if part.left() == 0 {
+                    budget.check()?;
+                    if part.left() < LEAST_EFFORT {
                         break;
                     }
-                    if let Some(found) = self.with(objective, Drops::UpTo(most), &mut part, budget)? {
+                    if let Some(found) = self.within(objective, Drops::UpTo(most), &mut part, budget)? {
                         return Ok(Some(found));
                     }
                 }
                 effort.join(part);
-                self.with(objective, Drops::UpTo(usize::MAX), &mut self.part(effort), budget)
+                self.with(objective, Drops::UpTo(usize::MAX), effort, budget)
             }
         }
     }
@@ -108,9 +111,7 @@ impl Attempt<'_> {
     /// better than one more relocation.
     fn on_table(&self, effort: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
         for objective in [self.question.objective, self.question.objective.other()] {
-            let mut part = self.part(effort);
-            let found = self.with(objective, Drops::Wanted, &mut part, budget)?;
-            effort.join(part);
+            let found = self.with(objective, Drops::Wanted, effort, budget)?;
             if found.is_some() {
                 return Ok(found);
             }
@@ -122,7 +123,21 @@ impl Attempt<'_> {
         effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(self.cost)))
     }
 
+    /// With one set's part of the effort.
     fn with(
+        &self,
+        objective: Objective,
+        drops: Drops,
+        effort: &mut Effort,
+        budget: &Budget<'_>,
+    ) -> Result<Option<Arrangement>, Interrupted> {
+        let mut part = self.part(effort);
+        let found = self.within(objective, drops, &mut part, budget)?;
+        effort.join(part);
+        Ok(found)
+    }
+
+    fn within(
         &self,
         objective: Objective,
         drops: Drops,
@@ -131,7 +146,8 @@ impl Attempt<'_> {
     ) -> Result<Option<Arrangement>, Interrupted> {
         let Self { question, scene, set, cost } = *self;
         let extra = cost.beyond(set.cost());
-        let task = Task { scene, model: question.model, set: &set.order, extra, objective, drops };
+        let kept = question.scene.goal().candidates();
+        let task = Task { scene, model: question.model, set: &set.order, kept, extra, objective, drops };
         arrange(&task, effort, budget)
     }
 }

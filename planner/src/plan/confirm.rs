@@ -74,6 +74,8 @@ pub(crate) fn confirmed_part(scene: &Scene, stated: Statement, report: &Report) 
     }
     if report.has(FaultCode::NeededUnconfirmed) {
         confirmed.needed = None;
+        // Without a plan it was the object that these would free.
+        confirmed.target = None;
     }
     confirmed
 }

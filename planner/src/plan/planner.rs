@@ -14,7 +14,7 @@ use crate::knowledge::{NoBase, SweptFinger, of_goal};
 use crate::placement::Arrangement;
 use crate::scene::{Goal, ObjectIndex, Scene};
 use crate::search::{Derivation, Memory, Progress, Restriction, SearchOutcome, least_within};
-use crate::statement::Statement;
+use crate::statement::{Statement, Verdict};
 
 /// Plan for the scene's goal. All parts look at the budget; when it ends, the best known answer is returned. `progress` is
 /// told of the search's incumbents and bounds; they are unchecked and ignore places.
@@ -37,7 +37,11 @@ pub fn plan(
 /// The statement where time ended before anything was known: of a clearing no steps, of any other goal the trivial bound.
 pub fn nothing_in_time(scene: &Scene) -> Statement {
     match scene.goal() {
-        Goal::Clear => Statement { proven: Some(false), ..Statement::uncleared(scene) },
+        Goal::Clear => {
+            let stated = Statement::uncleared(scene);
+            // Where there is nothing to take away, nothing is open.
+            Statement { proven: Some(stated.verdict == Some(Verdict::Cleared)), ..stated }
+        }
         _ => Statement::timed_out(),
     }
 }
@@ -62,7 +66,7 @@ fn stated(
     };
     if base.free_now(goal) {
         let free = free_candidates(scene, &SweptFinger, &[]);
-        let target = free.first().copied().unwrap_or(goal);
+        let target = free.first().or(scene.goal().candidates().first()).copied().unwrap_or(goal);
         return graspable_now(scene, target, &SweptFinger).map(|grasp| Statement::graspable(grasp).of(scene, target));
     }
     // That each of these moves is no news to the search, which finds landmarks one by one.

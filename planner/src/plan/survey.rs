@@ -36,7 +36,8 @@ pub struct SurveyEntry {
     pub optimal: Option<bool>,
 }
 
-/// Every object that can be grasped as the target, in index order; the scene's own goal is ignored. Objects undecided when the budget ends are `TimedOut`.
+/// Every object that can be grasped as the target, in index order; the scene's own goal is ignored. Objects undecided when the
+/// budget ends are `TimedOut`.
 ///
 /// # Errors
 /// [`PlanError::TooDense`] if the knowledge base would be too large, [`PlanError::Refused`] if an entry's proof fails its check.

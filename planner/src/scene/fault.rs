@@ -64,6 +64,11 @@ impl Findings {
         flaws.into_iter().for_each(|flaw| self.add(place, flaw));
     }
 
+    /// Those that came later, as far as there is room.
+    pub(super) fn append(&mut self, later: Self) {
+        later.list.into_iter().for_each(|finding| self.add(finding.place, finding.flaw));
+    }
+
     pub(super) fn full(&self) -> bool {
         self.list.len() >= MAX_FINDINGS
     }

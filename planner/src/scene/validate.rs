@@ -36,7 +36,8 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
         .map(|(at, object)| self::object(at, object, table.as_ref(), &mut faults))
         .collect();
     let stated = draft.drop_offs.as_deref().unwrap_or_default();
-    let drop_offs = drop_offs(stated, &ids, &mut faults, &mut warnings);
+    let mut unknown = Findings::default();
+    let drop_offs = drop_offs(stated, &ids, &mut faults, &mut unknown);
     let goal = draft.goal.as_ref().and_then(|goal| named(goal, &ids, &draft.objects, &mut faults));
     let default = if stated.is_empty() { Destination::Table } else { Destination::TableThenDropOff };
     let destination = draft.destination.unwrap_or(default);
@@ -65,6 +66,7 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     if !faults.is_empty() {
         return Err(faults);
     }
+    warnings.append(unknown);
     let parts = Parts { table, gripper, objects, index, drop_offs, destination };
     Ok((Scene { parts: Arc::new(parts), goal: Arc::new(goal) }, warnings.into_vec()))
 }

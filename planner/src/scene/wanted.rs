@@ -18,7 +18,8 @@ pub(super) fn named(
     objects: &[ObjectDraft],
     faults: &mut Findings,
 ) -> Option<Goal> {
-    let mut find = |id: &str, place, fixed: fn(String) -> Flaw| match ids.get(id) {
+    let all_read = objects.iter().all(|object| object.id.is_some());
+    let find = |id: &str, place, fixed: fn(String) -> Flaw, faults: &mut Findings| match ids.get(id) {
         Some(&at) if objects[at].fixed => {
             faults.add(place, fixed(id.to_owned()));
             None
@@ -26,14 +27,14 @@ pub(super) fn named(
         Some(&at) => Some(ObjectIndex::new(at)),
         None => {
             // It may be an object whose id could not be read.
-            if objects.iter().all(|object| object.id.is_some()) {
+            if all_read {
                 faults.add(place, Flaw::unknown_id(id, Flaw::UnknownTarget));
             }
             None
         }
     };
     match draft {
-        GoalDraft::Target(id) => find(id, Place::Target, Flaw::FixedTarget).map(Goal::Target),
+        GoalDraft::Target(id) => find(id, Place::Target, Flaw::FixedTarget, faults).map(Goal::Target),
         GoalDraft::Clear => Some(Goal::Clear),
         GoalDraft::AnyOf(list) | GoalDraft::AllOf(list) => {
             let (field, to_goal): (_, fn(Vec<ObjectIndex>) -> Goal) = match draft {
@@ -43,7 +44,10 @@ pub(super) fn named(
             let mut found = Vec::with_capacity(list.len());
             for (at, id) in list.iter().enumerate() {
                 let id = id.as_deref()?;
-                found.push(find(id, Place::GoalMember(field, at), Flaw::FixedMember));
+                found.push(find(id, Place::GoalMember(field, at), Flaw::FixedMember, faults));
+                if faults.full() {
+                    return None;
+                }
             }
             if list.is_empty() {
                 faults.add(Place::Goal(field), Flaw::NothingWanted);
