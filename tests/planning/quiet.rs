@@ -15,8 +15,13 @@ struct Case<'a> {
 #[track_caller]
 fn is_quiet(body: &str, named: &str) {
     let request = read_scene(body.as_bytes(), &RequestLimits::default()).unwrap();
-    // Some generated grippers are too wide for some generated discs.
-    let warnings: Vec<_> = request.warnings.iter().filter(|warning| warning.code != "fingers_overlap").collect();
+    // Some generated grippers are too wide for some generated discs, and one object of a client scene is too wide for its hand.
+    let meant = |pointer: &str, code: &str| match code {
+        "fingers_overlap" => true,
+        "too_wide" => (named, pointer) == ("clear-table.json", "/objects/3"),
+        _ => false,
+    };
+    let warnings: Vec<_> = request.warnings.iter().filter(|warning| !meant(&warning.pointer, &warning.code)).collect();
     assert!(warnings.is_empty(), "{named}: {warnings:?}");
 }
 
