@@ -56,7 +56,7 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
 /// The objects that the goal names, the most crowded first.
 fn named(recipe: &Recipe, scene: &Scene) -> Result<Vec<ObjectIndex>, GenerateError> {
     let Some(wanted) = recipe.wanted.count() else { return Ok(Vec::new()) };
-    let goes = |object: &ObjectIndex| !matches!(recipe.wanted, Wanted::AllOf(_)) || accepted(scene, *object);
+    let goes = |object: &ObjectIndex| !matches!(recipe.wanted, Wanted::AllOf(_)) || scene.object(*object).accepted();
     let fit = scene.indices().filter(|&object| scene.object(object).can_be_grasped()).filter(goes);
     let mut crowds: Vec<_> = fit.map(|object| (object, crowd(scene, object))).collect();
     if crowds.len() < wanted {
@@ -64,10 +64,6 @@ fn named(recipe: &Recipe, scene: &Scene) -> Result<Vec<ObjectIndex>, GenerateErr
     }
     crowds.sort_by(|(_, one), (_, other)| other.0.cmp(&one.0).then(one.1.total_cmp(&other.1)));
     Ok(crowds.into_iter().take(wanted).map(|(object, _)| object).collect())
-}
-
-fn accepted(scene: &Scene, object: ObjectIndex) -> bool {
-    scene.drop_offs().iter().any(|drop_off| drop_off.accepts().is_none_or(|accepted| accepted.contains(&object)))
 }
 
 /// The number of neighbours in reach of a grasp, and their distances in all: of two crowds of as many, that with less

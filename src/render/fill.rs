@@ -42,7 +42,7 @@ fn pick_drop(step: &Step) -> Option<&PickDrop> {
 }
 
 impl Fill<'_> {
-    /// How full it is, in words.
+    /// The number of objects, as it is written beside the id: `2 of 4` with a capacity, else `3 objects` or `empty`.
     pub fn amount(&self) -> String {
         match (self.capacity, self.held) {
             (Some(capacity), held) => format!("{held} of {capacity}"),

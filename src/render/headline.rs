@@ -1,7 +1,7 @@
 //! The verdict in one line.
 
 use super::fill::drops;
-use super::in_words::counted;
+use super::phrases::counted;
 use singulate_planner::cost::Cost;
 use singulate_planner::paper::Judged;
 use singulate_planner::scene::{Destination, Goal, Scene};
@@ -28,7 +28,7 @@ pub fn headline(scene: &Scene, judged: &Judged) -> String {
     }
 }
 
-/// The candidate that is chosen, in words; empty for a goal without a choice.
+/// The chosen candidate between `before` and `after`: `cup-3, one of 4`. Empty unless one of several candidates was chosen.
 fn chosen(scene: &Scene, stated: &Statement, before: &str, after: &str) -> String {
     match (scene.goal(), &stated.target) {
         (Goal::AnyOf(candidates), Some(id)) => format!("{before}{id}, one of {}{after}", candidates.len()),

@@ -5,14 +5,14 @@ use svg::node::element::Group;
 
 use super::fill::drop_off;
 use super::headline::headline;
-use super::in_words::listed;
 use super::label;
 use super::paint;
+use super::phrases::listed;
 use super::scene_line::{drop_off_line, scene_line};
-use super::stays::{Stays, left};
+use super::stays::left;
 use super::view::{PADDING, View};
 use singulate_planner::paper::{Judged, Warning};
-use singulate_planner::scene::{ObjectIndex, Scene};
+use singulate_planner::scene::Scene;
 use singulate_planner::statement::{Statement, Step, Verdict};
 
 /// The most ids for each reason to stay.
@@ -53,12 +53,9 @@ fn in_order(stated: &Statement) -> String {
 
 /// What a clearing leaves, with the reasons; without what the caller calls fixed.
 fn staying(scene: &Scene, stated: &Statement) -> String {
-    let left = left(scene, stated);
-    let told = Stays::ALL.into_iter().filter_map(|reason| {
-        let objects: Vec<ObjectIndex> =
-            left.iter().filter(|(_, why)| *why == reason).map(|(object, _)| *object).collect();
+    let told = left(scene, stated).into_iter().map(|(reason, objects)| {
         let ids: Vec<String> = objects.iter().take(MOST).map(|&object| scene.object(object).id().to_owned()).collect();
-        (!objects.is_empty()).then(|| format!("{} ({})", listed(&ids, objects.len()), reason.words()))
+        format!("{} ({})", listed(&ids, objects.len()), reason.words())
     });
     let told: Vec<String> = told.collect();
     if told.is_empty() { String::new() } else { format!("left: {}", told.join("; ")) }

@@ -4,13 +4,13 @@
 
 mod fill;
 mod headline;
-mod in_words;
 mod label;
 mod legend;
 mod lines;
 mod moves;
 mod objects;
 mod paint;
+mod phrases;
 mod roles;
 mod scene_line;
 mod stays;
@@ -20,7 +20,7 @@ mod view;
 pub use fill::{Fill, fills};
 pub use headline::headline;
 pub use scene_line::goal;
-pub use stays::{Stays, immovable, left};
+pub use stays::{immovable, left};
 
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Description, Group, Line, Pattern, Rectangle, Title};
@@ -31,6 +31,7 @@ use roles::Roles;
 use singulate_planner::paper::Judged;
 use singulate_planner::scene::Scene;
 use singulate_planner::statement::Statement;
+use stays::Stays;
 use view::View;
 
 /// Draw the scene with its answer: the table, the objects, and the numbered moves or the objects that lock each other;

@@ -52,7 +52,9 @@ impl<'a> Roles<'a> {
         let chosen = stated.target.as_deref().and_then(|id| by_id.get(id).copied());
         let mut roles = Self { scene, by_id, roles: scene.indices().map(standing).collect(), chosen };
         roles.give(Role::Moved, stated.steps().iter().map(Step::object));
-        left(scene, stated).iter().for_each(|(object, why)| roles.roles[object.get()] = Role::Stays(*why));
+        for (why, objects) in left(scene, stated) {
+            objects.iter().for_each(|object| roles.roles[object.get()] = Role::Stays(why));
+        }
         if let Some(lock) = stated.deadlock.as_ref().or(stated.stuck.as_ref()) {
             roles.give(Role::Blocked, lock.blocked.iter().map(String::as_str));
             roles.give(Role::Core, lock.core.iter().map(String::as_str));

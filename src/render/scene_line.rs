@@ -1,13 +1,14 @@
-//! The scene in words: what is wanted, how many objects there are, the hand, the drop-offs.
+//! Two lines about the scene: one names the goal, counts the objects and gives the hand's lengths; one lists the drop-offs.
 
-use super::in_words::{counted, listed};
+use super::phrases::{counted, listed};
 use super::stays::{Stays, immovable};
 use singulate_planner::scene::{Destination, DropOff, Goal, ObjectIndex, Opening, Scene};
 
 /// The most ids or drop-offs that a line names.
 const MOST: usize = 6;
 
-/// What is wanted, with up to `most` ids, in words that follow "target" or "goal:".
+/// The goal, to be written after `target` or `goal:`. For a target it is the id, else for example `any of a, b and 3 more`. At
+/// most `most` ids are named.
 pub fn goal(scene: &Scene, most: usize) -> String {
     let named = |objects: &[ObjectIndex]| {
         let ids = objects.iter().map(|&object| scene.object(object).id().to_owned());
@@ -21,6 +22,7 @@ pub fn goal(scene: &Scene, most: usize) -> String {
     }
 }
 
+/// Goal, objects and hand.
 pub(super) fn scene_line(scene: &Scene) -> String {
     let (gripper, goal) = (scene.gripper(), goal(scene, MOST));
     let goal = if scene.target().is_some() { format!("target {goal}") } else { format!("goal: {goal}") };

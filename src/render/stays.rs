@@ -25,10 +25,10 @@ pub enum Stays {
 
 impl Stays {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 6] =
+    const ALL: [Self; 6] =
         [Self::Fixed, Self::Locked, Self::NoRoom, Self::NotAccepted, Self::TooWide, Self::NotReached];
 
-    /// In a few words, to be said of an object or of several.
+    /// The reason as a phrase that goes with one object and with several.
     pub fn words(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -52,8 +52,8 @@ pub fn immovable(scene: &Scene, index: ObjectIndex) -> Option<Stays> {
     }
 }
 
-/// What a clearing leaves, with the reasons; nothing for another goal.
-pub fn left(scene: &Scene, stated: &Statement) -> Vec<(ObjectIndex, Stays)> {
+/// What a clearing leaves, by reason in the order of [`Stays::ALL`]; nothing for another goal.
+pub fn left(scene: &Scene, stated: &Statement) -> Vec<(Stays, Vec<ObjectIndex>)> {
     let Some(left) = stated.left.as_deref().filter(|left| !left.is_empty()) else { return Vec::new() };
     let by_id: HashMap<&str, ObjectIndex> = scene.indices().map(|object| (scene.object(object).id(), object)).collect();
     let locked: HashSet<&str> = stated.stuck.iter().flat_map(|lock| &lock.blocked).map(String::as_str).collect();
@@ -65,7 +65,10 @@ pub fn left(scene: &Scene, stated: &Statement) -> Vec<(ObjectIndex, Stays)> {
         None if room[object.get()] => Stays::NotReached,
         None => Stays::NoRoom,
     };
-    objects.map(|object| (object, reason(object))).collect()
+    let reasons: Vec<(Stays, ObjectIndex)> = objects.map(|object| (reason(object), object)).collect();
+    let of = |wanted| reasons.iter().filter(move |(why, _)| *why == wanted).map(|(_, object)| *object).collect();
+    let groups = Stays::ALL.into_iter().map(|why| (why, of(why)));
+    groups.filter(|(_, objects): &(_, Vec<_>)| !objects.is_empty()).collect()
 }
 
 /// Per object whether a drop-off that accepts it takes one more after all steps.

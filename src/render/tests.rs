@@ -10,6 +10,7 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::*;
+use crate::experiments::Recipe;
 use singulate_planner::check::{Fault, FaultCode};
 use singulate_planner::cost::Cost;
 use singulate_planner::paper::Warning;
@@ -32,17 +33,9 @@ fn scene(ids: &[&str]) -> Scene {
         shape: ShapeDraft::disc(0.08),
         fixed: at > 0 && at + 1 == ids.len(),
     };
-    let gripper = GripperDraft {
-        fingers: Some(3.0),
-        finger_width: Some(0.02),
-        clearance: Some(0.05),
-        margin: Some(0.0),
-        yaw_tolerance: Some(0.0),
-        ..GripperDraft::default()
-    };
     let draft = SceneDraft {
         table: TableDraft { top: rectangle(0.0, 0.0, 21.0, 21.0), keep_out: vec![rectangle(0.0, 0.0, 0.1, 0.1)] },
-        gripper,
+        gripper: Recipe::default().gripper,
         objects: ids.iter().enumerate().map(object).collect(),
         goal: Some(GoalDraft::Target(ids[0].to_owned())),
         ..SceneDraft::default()

@@ -185,3 +185,36 @@ impl Sound {
         (sets.collect(), all.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::budget::clocks::Looks;
+    use crate::check::Checker;
+    use crate::cost::Cost;
+    use crate::scene::scenes::TestScene;
+    use crate::scene::{GoalDraft, Scene};
+    use crate::statement::Statement;
+
+    /// Looks at the clock for the landmarks of so many loose objects that are all to be taken away.
+    fn looks(count: u32) -> usize {
+        let ids: Vec<String> = (0..count).map(|n| format!("d{n}")).collect();
+        let mut scene = TestScene::new(3).table(f64::from(count), 1.0).drop_off("tray", None, None);
+        for (n, id) in (0..).zip(&ids) {
+            scene = scene.disc(id, f64::from(n) + 0.5, 0.5, 0.05);
+        }
+        let scene: Scene = scene.with_goal(GoalDraft::AllOf(ids.iter().cloned().map(Some).collect()));
+        let landmarks = Some(ids.into_iter().map(|id| vec![id]).collect());
+        let lower_bound = Some(Cost::new(u64::from(count)));
+        let clock = Looks::ending_after(1_000_000);
+        let stated = Statement { lower_bound, landmarks, relocations: Some(Vec::new()), ..Statement::default() };
+        let report = Checker::new(&scene).check(&stated, &clock.budget());
+        assert_eq!(report.proven_bound, Cost::new(u64::from(count)));
+        clock.seen()
+    }
+
+    #[test]
+    fn what_is_wanted_away_is_a_landmark_without_chaining() {
+        let (few, many) = (looks(50), looks(200));
+        assert!(many < 6 * few, "{few} {many}");
+    }
+}

@@ -84,25 +84,18 @@ impl Attempt<'_> {
     /// sets no limit to that, must not be starved by those before.
     fn all(&self, effort: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
         let Question { objective, .. } = *self.question;
+        let with = |drops| move |part: &mut Effort| arrange(&self.task(objective, drops), part, budget);
         match self.scene.destination() {
-            Destination::DropOff => self.with(objective, Drops::All, effort, budget),
+            Destination::DropOff => self.on_a_share(effort, with(Drops::All)),
             Destination::Table => self.on_table(effort, budget),
             Destination::TableThenDropOff => {
                 if let Some(found) = self.on_table(effort, budget)? {
                     return Ok(Some(found));
                 }
-                let mut part = self.part(effort);
-                for most in 1..=self.set.order.len() {
-                    budget.check()?;
-                    if part.left() < LEAST_EFFORT {
-                        break;
-                    }
-                    if let Some(found) = self.within(objective, Drops::UpTo(most), &mut part, budget)? {
-                        return Ok(Some(found));
-                    }
+                if let Some(found) = self.on_a_share(effort, |part| self.with_few_drops(part, budget))? {
+                    return Ok(Some(found));
                 }
-                effort.join(part);
-                self.with(objective, Drops::UpTo(usize::MAX), effort, budget)
+                self.on_a_share(effort, with(Drops::UpTo(usize::MAX)))
             }
         }
     }
@@ -111,7 +104,8 @@ impl Attempt<'_> {
     /// better than one more relocation.
     fn on_table(&self, effort: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
         for objective in [self.question.objective, self.question.objective.other()] {
-            let found = self.with(objective, Drops::Wanted, effort, budget)?;
+            let task = self.task(objective, Drops::Wanted);
+            let found = self.on_a_share(effort, |part| arrange(&task, part, budget))?;
             if found.is_some() {
                 return Ok(found);
             }
@@ -119,40 +113,68 @@ impl Attempt<'_> {
         Ok(None)
     }
 
-    fn part(&self, effort: &mut Effort) -> Effort {
-        effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(self.cost)))
+    fn with_few_drops(&self, part: &mut Effort, budget: &Budget<'_>) -> Result<Option<Arrangement>, Interrupted> {
+        for most in 1..=self.set.order.len() {
+            budget.check()?;
+            if part.left() < LEAST_EFFORT {
+                break;
+            }
+            let found = arrange(&self.task(self.question.objective, Drops::UpTo(most)), part, budget)?;
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
-    /// With one set's part of the effort.
-    fn with(
-        &self,
-        objective: Objective,
-        drops: Drops,
-        effort: &mut Effort,
-        budget: &Budget<'_>,
-    ) -> Result<Option<Arrangement>, Interrupted> {
-        let mut part = self.part(effort);
-        let found = self.within(objective, drops, &mut part, budget)?;
-        effort.join(part);
-        Ok(found)
+    /// Works with one set's share of the effort, and gives back what is left of it.
+    fn on_a_share<T>(&self, effort: &mut Effort, work: impl FnOnce(&mut Effort) -> T) -> T {
+        let mut share = effort.split(MAX_EFFORT_PER_SET.saturating_add(for_steps(self.cost)));
+        let result = work(&mut share);
+        effort.join(share);
+        result
     }
 
-    fn within(
-        &self,
-        objective: Objective,
-        drops: Drops,
-        effort: &mut Effort,
-        budget: &Budget<'_>,
-    ) -> Result<Option<Arrangement>, Interrupted> {
+    fn task(&self, objective: Objective, drops: Drops) -> Task<'_> {
         let Self { question, scene, set, cost } = *self;
-        let extra = cost.beyond(set.cost());
-        let kept = question.scene.goal().candidates();
-        let task = Task { scene, model: question.model, set: &set.order, kept, extra, objective, drops };
-        arrange(&task, effort, budget)
+        let (extra, kept) = (cost.beyond(set.cost()), question.scene.goal().candidates());
+        Task { scene, model: question.model, set: &set.order, kept, extra, objective, drops }
     }
 }
 
 /// The extra effort for a plan of this cost.
 pub(super) fn for_steps(cost: Cost) -> u32 {
     EFFORT_PER_STEP.saturating_mul(u32::try_from(cost.get()).unwrap_or(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::knowledge::{SweptFinger, of_goal};
+    use crate::scene::scenes::TestScene;
+
+    /// Two plates have to go, and the tray takes one: no set of them fits, whichever it is, and none costs effort.
+    #[test]
+    fn a_set_that_the_drop_offs_do_not_hold_costs_no_effort() {
+        let scene = TestScene::new(2)
+            .finger(0.04, 0.05)
+            .disc("cup", 1.0, 1.0, 0.03)
+            .disc("east", 1.13, 1.0, 0.08)
+            .disc("north", 1.0, 1.13, 0.08)
+            .disc("west", 0.87, 1.0, 0.08)
+            .disc("south", 1.0, 0.87, 0.08)
+            .drop_off("tray", Some(1), None)
+            .destination(Destination::DropOff)
+            .build("cup");
+        let budget = Budget::unlimited();
+        let (base, goal) = of_goal(&scene, &SweptFinger, &budget).unwrap();
+        let question =
+            Question { scene: &scene, base: &base, goal, model: &SweptFinger, objective: Objective::default() };
+        let set = Derivation { order: vec![ObjectIndex::new(1), ObjectIndex::new(3)] };
+        let mut effort = Effort::new(1_000_000);
+        for _ in 0..32 {
+            assert_eq!(attempt(&question, &set, set.cost(), &mut effort, &budget), Ok(None));
+        }
+        assert_eq!(effort, Effort::new(1_000_000));
+    }
 }

@@ -52,6 +52,11 @@ impl Object {
         self.fixed
     }
 
+    /// True if some drop-off accepts it.
+    pub fn accepted(&self) -> bool {
+        self.accepted
+    }
+
     /// True if it is not fixed and fits between the open fingers.
     pub fn can_be_grasped(&self) -> bool {
         !self.fixed && !self.too_wide

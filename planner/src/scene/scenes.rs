@@ -1,7 +1,8 @@
 //! A builder of scenes for unit tests.
 
 use super::{
-    DropOffDraft, GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits, ShapeDraft,
+    Destination, DropOffDraft, GoalDraft, GripperDraft, ObjectDraft, RectangleDraft, Scene, SceneDraft, SceneLimits,
+    ShapeDraft,
 };
 
 /// The builder. By default: a table of 2 × 2 m, fingers 0.02 m wide, a clearance of 0.05 m.
@@ -83,6 +84,11 @@ impl TestScene {
         let accepts = accepts.map(|ids| ids.iter().map(|id| Some((*id).to_owned())).collect());
         let drop_off = DropOffDraft { id: Some(id.into()), capacity: capacity.map(f64::from), accepts };
         self.0.drop_offs.get_or_insert_default().push(drop_off);
+        self
+    }
+
+    pub(crate) fn destination(mut self, destination: Destination) -> Self {
+        self.0.destination = Some(destination);
         self
     }
 

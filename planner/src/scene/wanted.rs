@@ -41,27 +41,24 @@ pub(super) fn named(
                 GoalDraft::AllOf(_) => ("all_of", Goal::AllOf),
                 _ => ("any_of", Goal::AnyOf),
             };
-            let mut found = Vec::with_capacity(list.len());
-            for (at, id) in list.iter().enumerate() {
-                let id = id.as_deref()?;
-                found.push(find(id, Place::GoalMember(field, at), Flaw::FixedMember, faults));
-                if faults.full() {
-                    return None;
-                }
-            }
             if list.is_empty() {
                 faults.add(Place::Goal(field), Flaw::NothingWanted);
                 return None;
             }
-            let mut first = HashMap::new();
-            for (at, object) in found.iter().enumerate() {
-                let Some(object) = object else { continue };
-                if let Some(&earlier) = first.get(object) {
-                    let id = list[at].clone().unwrap_or_default();
-                    faults.add(Place::GoalMember(field, at), Flaw::NamedTwice { id, first: earlier });
-                } else {
-                    first.insert(*object, at);
+            let (mut found, mut first) = (Vec::with_capacity(list.len()), HashMap::new());
+            for (at, id) in list.iter().enumerate() {
+                let (id, place) = (id.as_deref()?, Place::GoalMember(field, at));
+                let object = find(id, place, Flaw::FixedMember, faults);
+                if let Some(&earlier) = object.as_ref().and_then(|object| first.get(object)) {
+                    faults.add(place, Flaw::NamedTwice { id: id.to_owned(), first: earlier });
                 }
+                if faults.full() {
+                    return None;
+                }
+                object.into_iter().for_each(|object| {
+                    first.entry(object).or_insert(at);
+                });
+                found.push(object);
             }
             found.into_iter().collect::<Option<_>>().map(to_goal)
         }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::super::table::{Column, table};
 use super::{MANY, ids, plain};
-use crate::render::{Stays, immovable, left};
+use crate::render::{immovable, left};
 use singulate_planner::cost::Cost;
 use singulate_planner::scene::{Destination, Goal, ObjectIndex, Scene};
 use singulate_planner::statement::{Deadlock, Statement, Verdict};
@@ -99,11 +99,9 @@ pub(super) fn why_left(scene: &Scene, statement: &Statement) -> Vec<String> {
     if statement.verdict != Some(Verdict::PartlyCleared) {
         return Vec::new();
     }
-    let left = left(scene, statement);
-    let reasons = Stays::ALL.into_iter().filter_map(|reason| {
-        let objects = left.iter().filter(|(_, why)| *why == reason).map(|(object, _)| scene.object(*object).id());
-        let objects: Vec<&str> = objects.collect();
-        (!objects.is_empty()).then(|| vec![reason.words().to_owned(), some(&objects)])
+    let reasons = left(scene, statement).into_iter().map(|(reason, objects)| {
+        let ids: Vec<&str> = objects.iter().map(|&object| scene.object(object).id()).collect();
+        vec![reason.words().to_owned(), some(&ids)]
     });
     let reasons = table(&[Column::left("why left"), Column::left("objects")], reasons);
     let lock = statement.stuck.iter().map(|lock| why_never(scene, lock));

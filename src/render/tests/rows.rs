@@ -1,6 +1,7 @@
 //! Scenes of discs in a row, their steps, and their drawings in parts.
 
 use super::*;
+use crate::experiments::Recipe;
 use singulate_planner::scene::DropOffDraft;
 use singulate_planner::statement::PickDrop;
 
@@ -24,14 +25,7 @@ pub(super) fn row(radii: &[(&str, f64)], goal: GoalDraft, drop_offs: &[DropOff<'
     };
     SceneDraft {
         table: TableDraft { top: rectangle(0.0, 0.0, 4.0, 1.0), keep_out: Vec::new() },
-        gripper: GripperDraft {
-            fingers: Some(3.0),
-            finger_width: Some(0.02),
-            clearance: Some(0.05),
-            margin: Some(0.0),
-            yaw_tolerance: Some(0.0),
-            ..GripperDraft::default()
-        },
+        gripper: Recipe::default().gripper,
         objects: radii.iter().enumerate().map(object).collect(),
         goal: Some(goal),
         drop_offs: (!drop_offs.is_empty()).then(|| drop_offs.iter().map(drop_off).collect()),

@@ -1,11 +1,11 @@
-//! Numbers and lists in words.
+//! Counts with their nouns, and lists that are cut short.
 
-/// So many of a thing, with an s where that is right.
+/// The count and its noun, with a plural s unless the count is 1: `1 object`, `3 objects`.
 pub(super) fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The first of `count` things, and how many more there are.
+/// The `first` of `count` names, and how many are left out: `a, b and 3 more`.
 pub(super) fn listed(first: &[String], count: usize) -> String {
     let more = match count.saturating_sub(first.len()) {
         0 => String::new(),
