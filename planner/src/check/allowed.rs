@@ -22,7 +22,7 @@ impl<'s> Allowed<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
         let widest = scene.gripper().max_opening().map_or(f64::INFINITY, |opening| opening * (1.0 + ROUNDING));
         let graspable =
-            scene.objects().iter().map(|object| !object.fixed() && 2.0 * extent(&object.footprint()) <= widest);
+            scene.objects().iter().map(|object| !object.fixed() && 2.0 * extent(object.footprint()) <= widest);
         let any = scene.drop_offs().iter().any(|drop_off| drop_off.accepts().is_none());
         let mut accepted = vec![any; scene.objects().len()];
         for object in scene.drop_offs().iter().filter_map(|drop_off| drop_off.accepts()).flatten() {

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
-use crate::scene::{Footprint, Gripper, Opening, Shape};
+use crate::scene::{Footprint, Gripper, Opening};
 
 /// One finger round an object, seen from the object's centre with the finger along +x: the rectangle
 /// [inner, outer] × [−half, half], m.
@@ -22,7 +22,7 @@ fn wrap(angle: f64) -> f64 {
 
 impl Finger {
     pub(super) fn new(gripper: &Gripper, grasped: &Footprint) -> Self {
-        let Shape::Disc { radius } = grasped.shape;
+        let radius = grasped.radius();
         let open = match (gripper.opening(), gripper.max_opening()) {
             (Opening::Full, Some(width)) => width / 2.0,
             _ => radius,
@@ -67,8 +67,8 @@ impl Finger {
         obstacle: &Footprint,
         (yaw, band): (f64, f64),
     ) -> f64 {
-        let Shape::Disc { radius } = obstacle.shape;
-        let away = self.closest(gripper, obstacle.pose.at - grasped.pose.at, yaw, band);
+        let radius = obstacle.radius();
+        let away = self.closest(gripper, obstacle.pose().at - grasped.pose().at, yaw, band);
         radius + gripper.margin() - away
     }
 
@@ -120,7 +120,7 @@ mod tests {
             distance in 0.0..1.0_f64, bearing in -4.0..4.0_f64, yaw in -7.0..7.0_f64, band in 0.0..2.0_f64,
         ) {
             let scene = TestScene::new(fingers).finger(width, clearance).disc("t", 0.5, 0.5, radius).build("t");
-            let finger = Finger::new(scene.gripper(), &scene.object(scene.target().unwrap()).footprint());
+            let finger = Finger::new(scene.gripper(), scene.object(scene.target().unwrap()).footprint());
             let obstacle = distance * Vector2::new(libm::cos(bearing), libm::sin(bearing));
             let closest = finger.closest(scene.gripper(), obstacle, yaw, band);
             let steps = 2000;

@@ -101,7 +101,7 @@ impl Places {
             let (object, to) = (names.find(step.object())?, step.rests_at()?);
             let liftable = allowed.graspable(object) && !scene.goal().is_candidate(object);
             (liftable && resolvable(to.at)).then(|| {
-                footprints.push(scene.object(object).footprint().moved_to(to));
+                footprints.push(scene.object(object).footprint().moved_to(to.into()));
                 owners.push(object);
                 PlaceIndex(start.footprints.len() + footprints.len() - 1)
             })
@@ -111,9 +111,9 @@ impl Places {
     }
 
     /// What stands on a place.
-    pub(super) fn footprint(&self, PlaceIndex(place): PlaceIndex) -> Footprint {
+    pub(super) fn footprint(&self, PlaceIndex(place): PlaceIndex) -> &Footprint {
         let start = &self.start.footprints;
-        start.get(place).copied().unwrap_or_else(|| self.steps.footprints[place - start.len()])
+        start.get(place).unwrap_or_else(|| &self.steps.footprints[place - start.len()])
     }
 
     /// The object that belongs to the place.
@@ -149,7 +149,7 @@ impl Tree {
 
     /// The objects of a scene at their places at the start: the n-th is the n-th object's.
     pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
-        Rc::new(Self::new(scene.objects().iter().map(|object| object.footprint()).collect()))
+        Rc::new(Self::new(scene.objects().iter().map(|object| object.footprint().clone()).collect()))
     }
 
     /// Box the run and divide it at the median of its longer side. Returns the box's number. The depth is logarithmic
@@ -160,7 +160,7 @@ impl Tree {
         let at = self.boxes.len();
         self.boxes.push(bounds);
         if run.len() > LEAF {
-            let place = |one: &usize| self.footprints[*one].pose.at;
+            let place = |one: &usize| self.footprints[*one].pose().at;
             let key = |one: &usize| if wide { place(one).x } else { place(one).y };
             let half = run.len() / 2;
             self.order[run.clone()].select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
@@ -174,10 +174,10 @@ impl Tree {
         let (far, near) =
             (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
         let mut bounds = Bounds { min: far, max: near, extent: 0.0, run: run.clone(), children: None };
-        for footprint in self.order[run].iter().map(|&at| self.footprints[at]) {
-            bounds.min = bounds.min.inf(&footprint.pose.at);
-            bounds.max = bounds.max.sup(&footprint.pose.at);
-            bounds.extent = bounds.extent.max(extent(&footprint));
+        for footprint in self.order[run].iter().map(|&at| &self.footprints[at]) {
+            bounds.min = bounds.min.inf(&footprint.pose().at);
+            bounds.max = bounds.max.sup(&footprint.pose().at);
+            bounds.extent = bounds.extent.max(extent(footprint));
         }
         bounds
     }
@@ -204,7 +204,7 @@ impl Tree {
 
     /// The least gap from `footprint` to one that `counts`, m; infinite if there is none.
     fn least_gap(&self, footprint: &Footprint, counts: impl Fn(usize) -> bool) -> f64 {
-        let (origin, own) = (footprint.pose.at, extent(footprint));
+        let (origin, own) = (footprint.pose().at, extent(footprint));
         let mut least = f64::INFINITY;
         let mut open: SmallVec<[(usize, f64); 32]> = SmallVec::from_slice(&[(0, f64::NEG_INFINITY)]);
         while let Some((at, bound)) = open.pop() {
@@ -264,11 +264,11 @@ mod tests {
             start.within(centre, reach, |at| found.push(at));
             found.sort_unstable();
             let scan =
-                scene.objects().iter().enumerate().filter(|(_, object)| away(&object.footprint(), centre) < reach);
+                scene.objects().iter().enumerate().filter(|(_, object)| away(object.footprint(), centre) < reach);
             assert_eq!(found, scan.map(|(at, _)| at).collect::<Vec<_>>());
             let probe = Footprint::disc(centre, 0.001);
             let least = start.least_gap(&probe, |at| at % 3 == 0);
-            let scan = scene.objects().iter().step_by(3).map(|object| gap(&probe, &object.footprint()));
+            let scan = scene.objects().iter().step_by(3).map(|object| gap(&probe, object.footprint()));
             let scan = scan.fold(f64::INFINITY, f64::min);
             assert!(least == scan || (least - scan).abs() < 1e-12, "{least} {scan}");
         }

@@ -17,7 +17,7 @@ pub(super) struct Landing<'a> {
     pub(super) standing: &'a Standing,
     pub(super) step: usize,
     pub(super) object: ObjectIndex,
-    pub(super) to: Footprint,
+    pub(super) to: &'a Footprint,
 }
 
 impl Landing<'_> {
@@ -46,7 +46,7 @@ impl Landing<'_> {
     }
 
     fn on_table(&self, faults: &mut Faults) {
-        let overhang = overhang(&self.to, self.scene.table().top());
+        let overhang = overhang(self.to, self.scene.table().top());
         if overhang > TOLERANCE {
             let detail = || format!("the new place sticks out over the table's edge by {overhang:.9} m");
             faults.of_step(FaultCode::OffTable, self.step, self.id(), detail);
@@ -55,7 +55,7 @@ impl Landing<'_> {
 
     fn outside(&self, first: usize, areas: &[Rectangle], faults: &mut Faults) {
         for (at, area) in areas.iter().enumerate() {
-            let depth = intrusion(&self.to, *area);
+            let depth = intrusion(self.to, *area);
             if depth > TOLERANCE {
                 let detail = || format!("the new place reaches {depth:.9} m into keep-out {}", first + at);
                 faults.of_step(FaultCode::InKeepOut, self.step, self.id(), detail);
@@ -74,14 +74,14 @@ impl Landing<'_> {
     fn clear(&self, faults: &mut Faults, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let margin = self.scene.gripper().margin();
         let mut visited = 0;
-        self.places.within(self.to.pose.at, extent(&self.to) + margin, |place| {
+        self.places.within(self.to.pose().at, extent(self.to) + margin, |place| {
             visited += 1;
             if !self.taken(place) {
                 return;
             }
             let other = self.scene.object(self.places.owner(place));
-            let first = gap(&self.scene.object(self.object).footprint(), &other.footprint());
-            let (real, asked) = (gap(&self.to, &self.places.footprint(place)), margin.min(first).max(0.0));
+            let first = gap(self.scene.object(self.object).footprint(), other.footprint());
+            let (real, asked) = (gap(self.to, self.places.footprint(place)), margin.min(first).max(0.0));
             if real < asked - TOLERANCE {
                 let detail = || format!("stands {real:.9} m from '{}' where {asked:.9} m are asked", other.id());
                 faults.of_step(FaultCode::TooClose, self.step, self.id(), detail);
@@ -93,7 +93,7 @@ impl Landing<'_> {
     /// The result is the number of places visited: empty ones don't end the search, so they are charged too.
     fn gap_as_stated(&self, stated: f64, faults: &mut Faults) -> usize {
         let visited = Cell::new(0);
-        let real = self.places.least_gap(&self.to, |place| {
+        let real = self.places.least_gap(self.to, |place| {
             visited.set(visited.get() + 1);
             self.taken(place)
         });

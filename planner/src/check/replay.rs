@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Footprint, Goal, ObjectIndex, Pose, Scene};
-use crate::statement::{PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use crate::scene::{Footprint, Goal, ObjectIndex, Scene};
+use crate::statement::{PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
 
 use super::TOLERANCE;
 use super::allowed::{Allowed, may_drop, only_drops};
@@ -141,7 +141,7 @@ impl Replay<'_> {
     ) -> Result<(), Interrupted> {
         match (target, statement.target_grasp) {
             (Some(target), Some(grasp)) => {
-                self.grasp(FaultCode::TargetBlocked, None, target, self.footprint(target), grasp)?;
+                self.grasp(FaultCode::TargetBlocked, None, target, &self.footprint(target).clone(), grasp)?;
             }
             (None, Some(_)) if statement.target.is_none() => {
                 self.faults.of_answer(FaultCode::MissingPart, || "a target_grasp needs its target".into());
@@ -174,13 +174,13 @@ impl Replay<'_> {
         if let Some(from) = step.from {
             self.stands_as_stated(at, object, from);
         }
-        self.grasp(FaultCode::GraspBlocked, Some(at), object, self.footprint(object), step.grasp)?;
-        let place = self.places.footprint(to);
+        self.grasp(FaultCode::GraspBlocked, Some(at), object, &self.footprint(object).clone(), step.grasp)?;
+        let place = self.places.footprint(to).clone();
         let (scene, places, standing) = (self.scene, self.places, &self.standing);
-        let landing = Landing { scene, places, standing, step: at, object, to: place };
+        let landing = Landing { scene, places, standing, step: at, object, to: &place };
         let gap = step.gap.filter(|_| self.terms.exact());
         landing.check(gap, self.faults, &mut self.ticker)?;
-        self.grasp(FaultCode::ReleaseBlocked, Some(at), object, place, step.release)?;
+        self.grasp(FaultCode::ReleaseBlocked, Some(at), object, &place, step.release)?;
         self.standing.put(object, to);
         Ok(())
     }
@@ -197,7 +197,7 @@ impl Replay<'_> {
         if let Some(from) = step.from {
             self.stands_as_stated(at, object, from);
         }
-        self.grasp(FaultCode::GraspBlocked, Some(at), object, self.footprint(object), step.grasp)?;
+        self.grasp(FaultCode::GraspBlocked, Some(at), object, &self.footprint(object).clone(), step.grasp)?;
         self.drops.take(self.scene, self.allowed, at, object, &step.drop_off, self.faults);
         self.standing.take_away(object);
         Ok(())
@@ -225,12 +225,12 @@ impl Replay<'_> {
         false
     }
 
-    fn footprint(&self, object: ObjectIndex) -> Footprint {
+    fn footprint(&self, object: ObjectIndex) -> &Footprint {
         self.places.footprint(self.standing.place(object))
     }
 
-    fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: Pose) {
-        let real = self.footprint(object).pose;
+    fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: StatedPose) {
+        let real = self.footprint(object).pose();
         // NaN agrees with nothing.
         let agrees = apart(real, stated) <= TOLERANCE + self.terms.position_tolerance;
         if !agrees {
@@ -265,14 +265,14 @@ impl Replay<'_> {
         code: FaultCode,
         step: Option<usize>,
         object: ObjectIndex,
-        grasped: Footprint,
+        grasped: &Footprint,
         grasp: StatedGrasp,
     ) -> Result<(), Interrupted> {
         let Some(band) = self.band(step, object, grasp) else { return Ok(()) };
         let gripper = self.scene.gripper();
-        let finger = Finger::new(gripper, &grasped);
+        let finger = Finger::new(gripper, grasped);
         let (mut near, mut visited) = (Vec::new(), 0);
-        self.places.within(grasped.pose.at, finger.corner_distance() + gripper.margin(), |place| {
+        self.places.within(grasped.pose().at, finger.corner_distance() + gripper.margin(), |place| {
             visited += 1;
             let owner = self.places.owner(place);
             if owner != object && self.standing.place(owner) == place {
@@ -283,7 +283,7 @@ impl Replay<'_> {
         let mut worst: Option<(f64, ObjectIndex)> = None;
         for owner in near {
             self.ticker.step(1)?;
-            let depth = finger.depth(gripper, &grasped, &self.footprint(owner), (grasp.yaw, band));
+            let depth = finger.depth(gripper, grasped, self.footprint(owner), (grasp.yaw, band));
             if depth > TOLERANCE && worst.is_none_or(|(deepest, _)| depth > deepest) {
                 worst = Some((depth, owner));
             }

@@ -104,17 +104,17 @@ impl<'s> Rings<'s> {
 
     fn make(&self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<Ring, Interrupted> {
         let (gripper, grasped) = (self.scene.gripper(), self.scene.object(object).footprint());
-        let finger = Finger::new(gripper, &grasped);
+        let finger = Finger::new(gripper, grasped);
         let reach = (finger.corner_distance() + gripper.margin()) * (1.0 + 4.0 * LENGTH_LEANING);
         let mut near = Vec::new();
-        self.start.within(grasped.pose.at, reach, |at| near.push(ObjectIndex::new(at)));
+        self.start.within(grasped.pose().at, reach, |at| near.push(ObjectIndex::new(at)));
         ticker.step(1)?;
         let mut shades = Vec::new();
         for by in near.into_iter().filter(|by| *by != object) {
             ticker.step(1)?;
             let obstacle = self.scene.object(by).footprint();
             let leaning = self.leaning.sign() * LENGTH_LEANING;
-            let yaws = blocked_by(&obstacle, &finger, &grasped, gripper, leaning);
+            let yaws = blocked_by(obstacle, &finger, grasped, gripper, leaning);
             shades.extend(yaws.into_iter().map(|[lo, hi]| Shade { lo, hi, by }));
         }
         shades.sort_unstable_by(|a, b| a.lo.total_cmp(&b.lo).then(a.by.cmp(&b.by)));
@@ -156,13 +156,13 @@ mod tests {
     /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
     fn some_band_is_free(scene: &Scene, band: f64) -> bool {
         let (gripper, target) = (scene.gripper(), scene.object(scene.target().unwrap()).footprint());
-        let finger = Finger::new(gripper, &target);
+        let finger = Finger::new(gripper, target);
         (0..500).any(|sample| {
             let yaw = gripper.period() * f64::from(sample) / 500.0;
             scene
                 .indices()
                 .filter(|object| Some(*object) != scene.target())
-                .all(|object| finger.depth(gripper, &target, &scene.object(object).footprint(), (yaw, band)) <= 0.0)
+                .all(|object| finger.depth(gripper, target, scene.object(object).footprint(), (yaw, band)) <= 0.0)
         })
     }
 

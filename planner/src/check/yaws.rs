@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 use smallvec::SmallVec;
 
 use super::finger::Finger;
-use crate::scene::{Footprint, Gripper, Shape};
+use crate::scene::{Footprint, Gripper};
 
 /// A closed interval of yaws within [0, period], rad.
 pub(super) type Interval = [f64; 2];
@@ -76,8 +76,8 @@ pub(super) fn blocked_by(
     gripper: &Gripper,
     leaning: f64,
 ) -> Intervals {
-    let Shape::Disc { radius } = obstacle.shape;
-    let (rho, apart) = (radius + gripper.margin(), obstacle.pose.at - grasped.pose.at);
+    let radius = obstacle.radius();
+    let (rho, apart) = (radius + gripper.margin(), obstacle.pose().at - grasped.pose().at);
     blocked_yaws(finger, gripper.period(), apart, rho + leaning * (rho + apart.norm()))
 }
 

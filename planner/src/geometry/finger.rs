@@ -12,9 +12,10 @@
 /// The rectangle that an open finger sweeps: [`inner`, `outer`] × [−`half_width`, `half_width`], m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweptRectangle {
-    /// r, the radius of the grasped object.
+    /// Where the closed finger stands: r, the radius of a grasped disc.
+    /// 0 where it meets nothing before the axis.
     pub inner: f64,
-    /// R = r + clearance.
+    /// R, how far out the open fingers stand.
     pub outer: f64,
     /// h = w/2.
     pub half_width: f64,
@@ -37,6 +38,11 @@ pub enum BlockedOffsets {
 }
 
 impl SweptRectangle {
+    /// From the gripper's axis to the outer corners, m.
+    pub fn corner_distance(&self) -> f64 {
+        (self.outer * self.outer + self.half_width * self.half_width).sqrt()
+    }
+
     /// The offsets at which a disc whose centre is at `distance` d > 0 blocks, when it must stay `rho` ρ > 0 away (m).
     pub fn blocked_offsets(&self, distance: f64, rho: f64) -> BlockedOffsets {
         let Self { inner: r, outer, half_width: h } = *self;

@@ -1,4 +1,4 @@
-//! Exact geometry of fingers and discs: which yaws an obstacle blocks, which remain free.
+//! Exact geometry of fingers and footprints: which grasps an obstacle blocks, which remain free.
 //!
 //! No angle is sampled: blocked intervals change only at the ends of shadows, and these come from closed forms.
 
@@ -6,8 +6,9 @@ mod arcs;
 mod finger;
 mod grasp;
 mod shadow;
+mod turns;
 
 pub use arcs::{Arc, ArcSet, FreeInterval};
 pub use finger::{BlockedOffsets, SweptRectangle};
-pub use grasp::{Grasp, widest_grasp};
-pub use shadow::shadow;
+pub use grasp::{Grasp, Hold, listed, widest_grasp};
+pub use shadow::{Shadow, shadow};

@@ -15,7 +15,7 @@ mod scene_base;
 pub use base::KnowledgeBase;
 pub use derivable::{Chaining, Derivable, derivable};
 pub use grasp_model::{GraspModel, SweptFinger, blockers};
-pub use known::{KnownOption, ObjectKnowledge, known};
+pub use known::{KnownGrasp, KnownOption, ObjectKnowledge, known};
 pub use lock::{Locks, locks};
 pub use options::{Blocker, minimal_options};
 pub use rows::Rows;

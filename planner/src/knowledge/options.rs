@@ -5,16 +5,16 @@
 //! widened shadows, and no option leaves only a sliver of free yaw. Only points where shadows have just ended
 //! and the next one starts can be minimal, so at most one candidate per shadow is kept.
 
-use crate::geometry::ArcSet;
-use crate::scene::ObjectIndex;
+use crate::geometry::{ArcSet, Shadow};
+use crate::scene::{Grasps, ListedGrasp, Object, ObjectIndex};
 
 /// An obstacle with its shadow on the object in question.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocker {
     /// The obstacle.
     pub object: ObjectIndex,
-    /// The yaws that it blocks; not empty.
-    pub shadow: ArcSet,
+    /// The grasps that it blocks; not empty.
+    pub shadow: Shadow,
 }
 
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -30,17 +30,38 @@ struct SweepEvent {
     blocker: usize,
 }
 
-/// The options of an object, given its blockers: sets of obstacles whose removal leaves a free interval at least
-/// `min_free_width` (rad) wide, such that no smaller set does. `[[]]` if it is graspable now.
+/// The options of an object, given its blockers: sets of obstacles whose removal leaves a listed grasp free, or a free interval of
+/// yaws at least `min_free_width` (rad) wide, such that no smaller set does. `[[]]` if it is graspable now.
 ///
 /// The result may still hold supersets; [`super::KnowledgeBase::push`] drops them.
-pub fn minimal_options(blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<ObjectIndex>> {
+pub fn minimal_options(object: &Object, blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<ObjectIndex>> {
+    match object.grasps() {
+        Grasps::Listed(list) => {
+            let ways = list.iter().zip(0_u32..).filter(|(grasp, _)| ListedGrasp::fits(grasp));
+            ways.map(|(_, way)| blocking(blockers, way)).collect()
+        }
+        Grasps::EveryYaw => {
+            let yaws: Vec<(ObjectIndex, &ArcSet)> =
+                blockers.iter().filter_map(|blocker| Some((blocker.object, blocker.shadow.yaws()?))).collect();
+            options_of_yaws(&yaws, min_free_width)
+        }
+    }
+}
+
+/// The obstacles that block a listed grasp.
+pub(super) fn blocking(blockers: &[Blocker], way: u32) -> Vec<ObjectIndex> {
+    let blocks = |blocker: &&Blocker| blocker.shadow.grasps() >> way & 1 == 1;
+    blockers.iter().filter(blocks).map(|blocker| blocker.object).collect()
+}
+
+/// The options where every yaw would do, given the yaws that each obstacle blocks.
+fn options_of_yaws(blockers: &[(ObjectIndex, &ArcSet)], min_free_width: f64) -> Vec<Vec<ObjectIndex>> {
     let mut events = Vec::with_capacity(4 * blockers.len());
     // Per blocker the number of its widened arcs that cover the current yaw. One that blocks every yaw is an arc
     // without end.
     let mut depth = vec![0_u32; blockers.len()];
-    for (at, blocker) in blockers.iter().enumerate() {
-        match widened(&blocker.shadow, min_free_width) {
+    for (at, (_, shadow)) in blockers.iter().enumerate() {
+        match widened(shadow, min_free_width) {
             None => depth[at] = 1,
             Some(arcs) => {
                 for (start, end) in arcs {
@@ -58,9 +79,9 @@ pub fn minimal_options(blockers: &[Blocker], min_free_width: f64) -> Vec<Vec<Obj
     sweep(blockers, &events, depth)
 }
 
-fn sweep(blockers: &[Blocker], events: &[SweepEvent], mut depth: Vec<u32>) -> Vec<Vec<ObjectIndex>> {
+fn sweep(blockers: &[(ObjectIndex, &ArcSet)], events: &[SweepEvent], mut depth: Vec<u32>) -> Vec<Vec<ObjectIndex>> {
     let current = |depth: &[u32]| -> Vec<ObjectIndex> {
-        blockers.iter().zip(depth).filter(|(_, depth)| **depth > 0).map(|(blocker, _)| blocker.object).collect()
+        blockers.iter().zip(depth).filter(|(_, depth)| **depth > 0).map(|(blocker, _)| blocker.0).collect()
     };
     let Some(last) = events.last() else { return vec![current(&depth)] };
     let mut options = Vec::new();
@@ -107,16 +128,15 @@ mod tests {
 
     const PERIOD: f64 = 2.0;
 
-    fn blockers(shadows: &[Vec<(f64, f64)>]) -> Vec<Blocker> {
-        let shadow = |(at, arcs): (usize, &Vec<(f64, f64)>)| Blocker {
-            object: ObjectIndex::new(at),
-            shadow: ArcSet::fold(PERIOD, arcs),
-        };
-        shadows.iter().enumerate().map(shadow).filter(|blocker| !blocker.shadow.is_empty()).collect()
+    fn blockers(shadows: &[Vec<(f64, f64)>]) -> Vec<(ObjectIndex, ArcSet)> {
+        let shadow = |(at, arcs): (usize, &Vec<(f64, f64)>)| (ObjectIndex::new(at), ArcSet::fold(PERIOD, arcs));
+        shadows.iter().enumerate().map(shadow).filter(|(_, shadow)| !shadow.is_empty()).collect()
     }
 
     fn options(shadows: &[Vec<(f64, f64)>], width: f64) -> Vec<Vec<usize>> {
-        let base: super::super::KnowledgeBase = [minimal_options(&blockers(shadows), width)].into_iter().collect();
+        let blockers = blockers(shadows);
+        let blockers: Vec<_> = blockers.iter().map(|(object, shadow)| (*object, shadow)).collect();
+        let base: super::super::KnowledgeBase = [options_of_yaws(&blockers, width)].into_iter().collect();
         base.options(ObjectIndex::new(0)).map(|option| option.iter().map(|o| o.get()).collect()).collect()
     }
 
@@ -144,7 +164,7 @@ mod tests {
             let (start, length) = (1e-3 * f64::from(n), 1.3);
             let gap = (start + length, start + PERIOD);
             let shadows = [vec![(start, gap.0)], vec![(gap.0 - 0.05, gap.1 + 0.05)]];
-            let width = blockers(&shadows)[0].shadow.widest_free().map(|gap| gap.width).unwrap();
+            let width = blockers(&shadows)[0].1.widest_free().map(|gap| gap.width).unwrap();
             assert_eq!(options(&shadows, width), [vec![0], vec![1]], "{gap:?}");
         }
     }
@@ -161,8 +181,8 @@ mod tests {
                 shadows.into_iter().map(|arcs| arcs.into_iter().map(|(lo, length)| (lo, lo + length)).collect()).collect();
             let width = width.max(1e-9);
             let all = blockers(&shadows);
-            let gone = |blocker: &&Blocker| removed >> blocker.object.get() & 1 == 1;
-            let left = ArcSet::union(PERIOD, all.iter().filter(|b| !gone(b)).map(|b| &b.shadow));
+            let gone = |object: ObjectIndex| removed >> object.get() & 1 == 1;
+            let left = ArcSet::union(PERIOD, all.iter().filter(|b| !gone(b.0)).map(|b| &b.1));
             let widest = left.widest_free().map_or(0.0, |gap| gap.width);
             prop_assume!((widest - width).abs() > 1e-12);
             let holds_option =

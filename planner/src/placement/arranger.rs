@@ -6,11 +6,12 @@ use super::candidates::{Candidates, PlaceSpec};
 use super::drop_offs::DropOffs;
 use super::effort::EffortMeter;
 use super::layout::Layout;
+use super::orientations::orientations;
 use super::tabletop::Tabletop;
 use super::task::{Arrangement, Drops, Task};
 use super::{Move, Objective, Relocation, Removal};
 use crate::budget::Stop;
-use crate::geometry::Grasp;
+use crate::geometry::{Grasp, Hold};
 use crate::scene::{ObjectIndex, Pose, distance};
 
 pub(super) struct Arranger<'a, 'e> {
@@ -70,8 +71,8 @@ impl<'a, 'e> Arranger<'a, 'e> {
             let before = rest.len();
             let mut staying = Vec::with_capacity(before);
             for object in rest {
-                let grasp = if self.task.leaves(object) { self.table.grasp(object)? } else { None };
-                match grasp {
+                let hold = if self.task.leaves(object) { self.table.hold(object)? } else { None };
+                match hold.and_then(|hold| self.grasp(object, hold)) {
                     Some(grasp) => self.take_away(object, grasp),
                     None => staying.push(object),
                 }
@@ -90,14 +91,14 @@ impl<'a, 'e> Arranger<'a, 'e> {
         }
         let graspable = self.graspable(remaining)?;
         self.truncated |= graspable.len() > self.width;
-        for &(object, grasp) in graspable.iter().take(self.width) {
+        for &(object, hold) in graspable.iter().take(self.width) {
             let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != object).collect();
-            if let Some(done) = self.relocate(object, grasp, &rest, extra)? {
+            if let Some(done) = self.relocate((object, hold), &rest, extra)? {
                 return Ok(Some(done));
             }
         }
         if extra > 0
-            && let Some(&(stuck, _)) = graspable.first()
+            && let Some(&stuck) = graspable.first()
             && self.task.drops != Drops::All
         {
             return self.make_room(stuck, remaining, extra - 1);
@@ -123,10 +124,10 @@ impl<'a, 'e> Arranger<'a, 'e> {
 
     /// The first of the remaining objects that can be grasped, at most one more than the width. The extra one shows that
     /// the width left something out.
-    fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Grasp)>, Stop> {
+    fn graspable(&mut self, remaining: &[ObjectIndex]) -> Result<Vec<(ObjectIndex, Hold)>, Stop> {
         let mut graspable = Vec::new();
         for &object in remaining {
-            graspable.extend(self.table.grasp(object)?.map(|grasp| (object, grasp)));
+            graspable.extend(self.table.hold(object)?.map(|hold| (object, hold)));
             if graspable.len() > self.width {
                 break;
             }
@@ -137,7 +138,7 @@ impl<'a, 'e> Arranger<'a, 'e> {
     /// Moves some other object whose absence gives `stuck` a place.
     fn make_room(
         &mut self,
-        stuck: ObjectIndex,
+        stuck: (ObjectIndex, Hold),
         remaining: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
@@ -150,9 +151,9 @@ impl<'a, 'e> Arranger<'a, 'e> {
         };
         let others: Vec<ObjectIndex> = scene.indices().filter(other).collect();
         for object in others {
-            let Some(grasp) = self.table.grasp(object)? else { continue };
+            let Some(hold) = self.table.hold(object)? else { continue };
             if self.frees_a_place(object, stuck, remaining)?
-                && let Some(done) = self.relocate(object, grasp, remaining, extra)?
+                && let Some(done) = self.relocate((object, hold), remaining, extra)?
             {
                 return Ok(Some(done));
             }
@@ -164,29 +165,34 @@ impl<'a, 'e> Arranger<'a, 'e> {
     fn frees_a_place(
         &mut self,
         object: ObjectIndex,
-        stuck: ObjectIndex,
+        (stuck, hold): (ObjectIndex, Hold),
         remaining: &[ObjectIndex],
     ) -> Result<bool, Stop> {
         let rest: Vec<ObjectIndex> = remaining.iter().copied().filter(|&other| other != stuck).collect();
         self.table.layout.lift(object, true);
         self.table.layout.lift(stuck, true);
-        let mut candidates = Candidates::new(&self.table.layout, self.spec(stuck, 0.0));
-        let found = self.table.next_place(&mut candidates, stuck, &rest, |_| false)?;
+        let mut found = false;
+        for yaw in orientations(&self.table.layout, stuck) {
+            let mut candidates = Candidates::new(&self.table.layout, self.spec(stuck, yaw, 0.0));
+            found = self.table.next_place(&mut candidates, (stuck, hold), &rest, |_| false)?.is_some();
+            if found {
+                break;
+            }
+        }
         self.table.layout.lift(stuck, false);
         self.table.layout.lift(object, false);
-        Ok(found.is_some())
+        Ok(found)
     }
 
     /// Tries places for `object`, best first, then the drop-offs, and goes on with `rest` from each.
     fn relocate(
         &mut self,
-        object: ObjectIndex,
-        grasp: Grasp,
+        (object, hold): (ObjectIndex, Hold),
         rest: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
-        for (at, release) in self.places(object, rest)? {
-            if let Some(done) = self.go_on(object, grasp, at, release, rest, extra)? {
+        for place in self.places((object, hold), rest)? {
+            if let Some(done) = self.go_on((object, hold), place, rest, extra)? {
                 return Ok(Some(done));
             }
         }
@@ -196,6 +202,7 @@ impl<'a, 'e> Arranger<'a, 'e> {
         if !held.take(object, |looks| self.table.spend(looks))? {
             return Ok(None);
         }
+        let Some(grasp) = self.grasp(object, hold) else { return Ok(None) };
         self.drop_offs.push(held);
         self.take_away(object, grasp);
         let done = self.step(rest, extra)?;
@@ -207,39 +214,47 @@ impl<'a, 'e> Arranger<'a, 'e> {
         Ok(done)
     }
 
+    /// The grasp of an object where it stands, in the first of some ways to hold it.
+    fn grasp(&self, object: ObjectIndex, hold: Hold) -> Option<Grasp> {
+        hold.grasp(self.task.scene.gripper(), self.table.layout.placed(object))
+    }
+
     /// Takes `object` away. The drop-off is known in the end, since objects may move on to others.
     fn take_away(&mut self, object: ObjectIndex, grasp: Grasp) {
-        let from = self.table.layout.footprint(object).pose;
+        let from = self.table.layout.footprint(object).pose();
         self.table.layout.lift(object, true);
         self.moves.push(Move::Drop(Removal { object, from, grasp, drop_off: 0 }));
     }
 
     /// The best places for `object`, as many as the width admits. They are found before any is tried: candidates take
     /// memory by the size of the scene, and a plan may be hundreds of steps deep.
-    fn places(&mut self, object: ObjectIndex, rest: &[ObjectIndex]) -> Result<Vec<(Pose, Grasp)>, Stop> {
+    fn places(&mut self, (object, hold): (ObjectIndex, Hold), rest: &[ObjectIndex]) -> Result<Vec<(Pose, Hold)>, Stop> {
         let radius = self.table.layout.footprint(object).circumradius();
-        let mut places: Vec<(Pose, Grasp)> = Vec::new();
+        let mut places: Vec<(Pose, Hold)> = Vec::new();
         self.table.layout.lift(object, true);
+        let yaws = orientations(&self.table.layout, object);
         let passes = self.gaps.iter().map(|&preferred| (preferred, false)).chain([(0.0, true)]);
-        for (preferred, spread) in passes {
+        for ((preferred, spread), &yaw) in passes.flat_map(|pass| yaws.iter().map(move |yaw| (pass, yaw))) {
             if places.len() >= self.width {
                 break;
             }
-            let spec = self.spec(object, preferred);
+            let spec = self.spec(object, yaw, preferred);
             let mut candidates = if spread {
                 Candidates::spread(&self.table.layout, spec)
             } else {
                 Candidates::new(&self.table.layout, spec)
             };
             // Where one place fails, its neighbours usually fail too.
-            let near =
-                |places: &[(Pose, Grasp)], at: Pose| places.iter().any(|(other, _)| distance(other.at, at.at) < radius);
+            let near = |places: &[(Pose, Hold)], at: Pose| {
+                places.iter().any(|(other, _)| other.yaw == at.yaw && distance(other.at, at.at) < radius)
+            };
             while places.len() < self.width
-                && let Some(place) = self.table.next_place(&mut candidates, object, rest, |at| near(&places, at))?
+                && let Some(place) =
+                    self.table.next_place(&mut candidates, (object, hold), rest, |at| near(&places, at))?
             {
                 places.push(match self.task.objective {
                     Objective::FarFromTarget => place,
-                    Objective::ShortMoves => self.table.pull_back(&candidates, object, rest, place)?,
+                    Objective::ShortMoves => self.table.pull_back(&candidates, (object, hold), rest, place)?,
                 });
             }
         }
@@ -251,17 +266,21 @@ impl<'a, 'e> Arranger<'a, 'e> {
 
     fn go_on(
         &mut self,
-        object: ObjectIndex,
-        grasp: Grasp,
-        to: Pose,
-        release: Grasp,
+        (object, hold): (ObjectIndex, Hold),
+        (to, release): (Pose, Hold),
         rest: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
-        let footprint = self.table.layout.footprint(object);
-        let gap = self.table.layout.gap(object, &footprint.moved_to(to));
+        let (from, gripper) = (self.table.layout.footprint(object).pose(), self.task.scene.gripper());
+        let kept = hold.and(release);
+        let Some(grasp) = kept.and_then(|kept| self.grasp(object, kept)) else { return Ok(None) };
+        let gap = self.table.layout.gap(object, &self.table.layout.footprint(object).moved_to(to));
         let before = self.table.layout.put(object, to);
-        self.moves.push(Move::Place(Relocation { object, from: footprint.pose, to, grasp, release, gap }));
+        let Some(release) = release.grasp(gripper, self.table.layout.placed(object)) else {
+            self.table.layout.take_back(object, before);
+            return Ok(None);
+        };
+        self.moves.push(Move::Place(Relocation { object, from, to, grasp, release, gap }));
         let done = self.step(rest, extra)?;
         if done.is_none() {
             self.moves.pop();
@@ -270,9 +289,10 @@ impl<'a, 'e> Arranger<'a, 'e> {
         Ok(done)
     }
 
-    fn spec(&self, object: ObjectIndex, preferred: f64) -> PlaceSpec {
+    fn spec(&self, object: ObjectIndex, yaw: f64, preferred: f64) -> PlaceSpec {
         PlaceSpec {
             object,
+            yaw,
             gap: self.task.scene.gripper().margin() + preferred,
             edge_gap: preferred,
             objective: self.task.objective,

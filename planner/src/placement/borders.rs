@@ -1,89 +1,161 @@
 //! The borders of free space, where an object's origin may stand: one inside the table's edge, one round each obstacle and
 //! each keep-out.
+//!
+//! Round an obstacle these are the outlines of Minkowski sums: of its core and the mirrored core of what is set down, grown by
+//! both radii and the gap.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::INSIDE;
-use super::curves::{Circle, Direction, Side};
-use crate::scene::{Footprint, Gripper, Rectangle, Shape, distance};
+use super::curves::{Circle, Direction, Edge, Side};
+use crate::scene::{Core, Footprint, Grasps, Gripper, Placed, Rectangle, distance};
 
 /// The curves of one border.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Border {
     pub(super) circles: SmallVec<[Circle; 4]>,
     pub(super) sides: SmallVec<[Side; 4]>,
+    pub(super) edges: Vec<Edge>,
 }
 
 impl Border {
-    /// Where the origin of `shape` may stand beside an obstacle: as near as `gap` (m) allows; where the obstacle no longer
-    /// hinders the release; where the shape no longer hinders a grasp of the obstacle.
-    pub(super) fn beside(shape: Shape, obstacle: &Footprint, gripper: &Gripper, gap: f64) -> Self {
-        let (Shape::Disc { radius }, Shape::Disc { radius: others }) = (shape, obstacle.shape);
-        let (own, clear) = (Footprint { shape, ..*obstacle }, gripper.margin() + INSIDE);
-        let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&[
+    /// Where the origin of `own` may stand beside an obstacle: as near as `gap` (m) allows; where the obstacle no longer
+    /// hinders the release; where it no longer hinders a grasp of the obstacle. It is turned as `own` is.
+    pub(super) fn beside(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper, gap: f64) -> Self {
+        let (radius, others) = (own.footprint.radius(), obstacle.footprint.radius());
+        let clear = gripper.margin() + INSIDE;
+        let distances = [
             radius + others + gap + INSIDE,
-            gripper.corner_distance(&own) + others + clear,
-            gripper.corner_distance(obstacle) + radius + clear,
-        ]);
-        radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
-        let circles = radii.into_iter().map(|radius| Circle { centre: obstacle.at(), radius }).collect();
-        Self { circles, sides: SmallVec::new() }
+            reach(own, gripper) + others + clear,
+            reach(obstacle, gripper) + radius + clear,
+        ];
+        let at = obstacle.footprint.at();
+        let mirrored = own.footprint.core().map(Core::mirrored);
+        match (obstacle.footprint.core(), &mirrored) {
+            (None, None) => {
+                let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&distances);
+                radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
+                let circles = radii.into_iter().map(|radius| Circle::whole(at, radius)).collect();
+                Self { circles, ..Self::default() }
+            }
+            (theirs, mine) => {
+                let mut border = Self::default();
+                match (theirs, mine) {
+                    (Some(theirs), Some(mine)) => border.grow(at, Some(&theirs.sum(mine)), distances[0]),
+                    _ => border.grow(at, theirs.or(mine.as_ref()), distances[0]),
+                }
+                border.grow(at, theirs, distances[1]);
+                border.grow(at, mine.as_ref(), distances[2]);
+                border
+            }
+        }
     }
 
-    /// Where the origin of `shape` may stand inside a rectangle, `gap` (m) from its edge. Empty where the rectangle is too
+    /// Where the origin of a footprint may stand inside a rectangle, `gap` (m) from its edge. Empty where the rectangle is too
     /// small.
-    pub(super) fn inside(shape: Shape, area: &Rectangle, gap: f64) -> Self {
-        let keep = keep(shape, gap);
-        let inset = nalgebra::Vector2::new(keep, keep);
-        Self { circles: SmallVec::new(), sides: sides(area.min() + inset, area.max() - inset, 0.0) }
+    pub(super) fn inside(own: &Footprint, area: &Rectangle, gap: f64) -> Self {
+        let [low, high] = insets(own, gap);
+        Self { sides: sides(area.min() + low, area.max() - high, 0.0), ..Self::default() }
     }
 
-    /// Where the origin of `shape` may stand outside a rectangle, `gap` (m) from it: the sides moved outwards, with round
+    /// Where the origin of a footprint may stand outside a rectangle, `gap` (m) from it: the sides moved outwards, with round
     /// corners.
-    pub(super) fn outside(shape: Shape, area: &Rectangle, gap: f64) -> Self {
-        let keep = keep(shape, gap);
+    pub(super) fn outside(own: &Footprint, area: &Rectangle, gap: f64) -> Self {
+        let keep = own.radius() + gap + INSIDE;
         let (min, max) = (area.min(), area.max());
+        if let Some(core) = own.core() {
+            let middle = nalgebra::center(&min, &max);
+            let corners = [min, Point2::new(max.x, min.y), max, Point2::new(min.x, max.y)].map(|at| at - middle);
+            let mut border = Self::default();
+            let area = Core::hull(&corners).map(|area| area.sum(&core.mirrored()));
+            border.grow(middle, area.as_ref(), keep);
+            return border;
+        }
         let corners = [min, max, Point2::new(min.x, max.y), Point2::new(max.x, min.y)];
-        let circles = corners.into_iter().map(|centre| Circle { centre, radius: keep }).collect();
-        Self { circles, sides: sides(min, max, keep) }
+        let circles = corners.into_iter().map(|centre| Circle::whole(centre, keep)).collect();
+        Self { circles, sides: sides(min, max, keep), ..Self::default() }
+    }
+
+    /// Adds the outline of a core at `at` that is grown by `radius`; `None` stands for a point.
+    fn grow(&mut self, at: Point2<f64>, core: Option<&Core>, radius: f64) {
+        let Some(core) = core else {
+            self.circles.push(Circle::whole(at, radius));
+            return;
+        };
+        let edges: SmallVec<[[Vector2<f64>; 2]; 8]> = core.edges().collect();
+        let normal = |[start, end]: &[Vector2<f64>; 2]| {
+            let along = (end - start) / distance(Point2::from(*start), Point2::from(*end));
+            Vector2::new(along.y, -along.x)
+        };
+        let mut before = edges.last().map(normal).unwrap_or_default();
+        for edge in &edges {
+            let (normal, [start, end]) = (normal(edge), edge);
+            // Round the end of a segment the arc is half a circle: in two quarters.
+            let turned = Vector2::new(-before.y, before.x);
+            let quarter = if before.perp(&normal).abs() < 1e-9 { Some(turned) } else { None };
+            for span in [Some([before, quarter.unwrap_or(normal)]), quarter.map(|middle| [middle, normal])] {
+                self.circles.extend(span.map(|span| Circle { centre: at + start, radius, span: Some(span) }));
+            }
+            self.edges.push(Edge { start: at + start + normal * radius, end: at + end + normal * radius });
+            before = normal;
+        }
     }
 
     /// Adds the points where two borders meet.
     pub(super) fn meet(&self, other: &Self, mut add: impl FnMut(Point2<f64>)) {
         for circle in &self.circles {
-            other.circles.iter().filter_map(|theirs| circle.meet(theirs)).flatten().for_each(&mut add);
+            other.circles.iter().flat_map(|theirs| circle.meet(theirs)).for_each(&mut add);
             other.sides.iter().flat_map(|side| circle.meet_side(side)).for_each(&mut add);
+            other.edges.iter().flat_map(|edge| circle.meet_edge(edge)).for_each(&mut add);
         }
         for side in &self.sides {
             other.circles.iter().flat_map(|theirs| theirs.meet_side(side)).for_each(&mut add);
             other.sides.iter().filter_map(|theirs| side.meet(theirs)).for_each(&mut add);
+            other.edges.iter().filter_map(|edge| edge.meet(&side.edge()?)).for_each(&mut add);
+        }
+        for edge in &self.edges {
+            other.circles.iter().flat_map(|theirs| theirs.meet_edge(edge)).for_each(&mut add);
+            other.sides.iter().filter_map(|side| edge.meet(&side.edge()?)).for_each(&mut add);
+            other.edges.iter().filter_map(|theirs| edge.meet(theirs)).for_each(&mut add);
         }
     }
 
     /// Adds the points of its curves nearest to and farthest from `point`.
     pub(super) fn extremes(&self, point: Point2<f64>, mut add: impl FnMut(Point2<f64>)) {
         self.circles.iter().flat_map(|circle| circle.extremes(point)).for_each(&mut add);
-        self.sides.iter().flat_map(|side| side.extremes(point)).for_each(add);
+        self.sides.iter().flat_map(|side| side.extremes(point)).for_each(&mut add);
+        self.edges.iter().flat_map(|edge| edge.extremes(point)).for_each(add);
     }
 
-    /// No point of its circles is nearer to `point` than this, m. For a border without sides: that round an obstacle.
-    pub(super) fn nearest_of_circles(&self, point: Point2<f64>) -> f64 {
+    /// No point of its circles and edges is nearer to `point` than this, m. For a border without sides: that round an obstacle.
+    pub(super) fn nearest(&self, point: Point2<f64>) -> f64 {
         let away = |circle: &Circle| (distance(circle.centre, point) - circle.radius).abs();
-        self.circles.iter().map(away).fold(f64::INFINITY, f64::min)
+        let edges = self.edges.iter().map(|edge| edge.nearest(point));
+        self.circles.iter().map(away).chain(edges).fold(f64::INFINITY, f64::min)
     }
 
     /// No point of the border is farther from `point` than this, m.
     pub(super) fn farthest(&self, point: Point2<f64>) -> f64 {
-        // Where there are sides and circles, the ends of the sides lie on the circles.
+        // Where there are sides or edges and circles, their ends lie on the circles.
         self.circles.iter().map(|circle| distance(circle.centre, point) + circle.radius).fold(0.0, f64::max)
     }
 }
 
-/// How far the origin of `shape` stays from a border that the shape keeps a gap to, m.
-pub(super) fn keep(shape: Shape, gap: f64) -> f64 {
-    let Shape::Disc { radius } = shape;
-    radius + gap + INSIDE
+/// How far from an object's origin another one can hinder a grasp of it, without the margin, m.
+fn reach(placed: Placed<'_>, gripper: &Gripper) -> f64 {
+    match (placed.object.grasps(), gripper.palm()) {
+        (Grasps::EveryYaw, None) => gripper.corner_distance(placed.footprint),
+        _ => placed.object.reach(gripper) - gripper.margin(),
+    }
+}
+
+/// How far the origin of a footprint stays from the sides of a rectangle to which the footprint keeps a gap, m: from the lower
+/// ones, then from the upper ones.
+pub(super) fn insets(own: &Footprint, gap: f64) -> [Vector2<f64>; 2] {
+    let [low, high] = own.extents();
+    let keep = |extent: f64| extent + gap + INSIDE;
+    [Vector2::new(keep(-low.x), keep(-low.y)), Vector2::new(keep(high.x), keep(high.y))]
 }
 
 /// The sides of the rectangle, moved outwards by `keep`.

@@ -7,14 +7,14 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Point2;
 
-use super::borders::{Border, keep};
+use super::borders::{Border, insets};
 use super::effort::EffortMeter;
 use super::layout::Layout;
 use super::{INSIDE, Objective, scatter};
 use crate::budget::Stop;
-use crate::scene::{Footprint, ObjectIndex, Pose, distance};
+use crate::scene::{Footprint, ObjectIndex, Placed, Pose, distance};
 
 /// Places that can be generated for the cost of trying one.
 const PLACES_PER_EFFORT: usize = 32;
@@ -23,6 +23,8 @@ const PLACES_PER_EFFORT: usize = 32;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaceSpec {
     pub(super) object: ObjectIndex,
+    /// How the object is turned, rad.
+    pub(super) yaw: f64,
     /// The gap to other objects, m.
     pub(super) gap: f64,
     /// The gap to the table's edge and to keep-outs, m.
@@ -35,7 +37,7 @@ pub(super) struct PlaceSpec {
 /// Places in the order of their score.
 pub(super) struct Candidates {
     spec: PlaceSpec,
-    /// The object where it stood.
+    /// The object where it stood, turned as it is to be.
     own: Footprint,
     /// The target's centre or the object's own, by objective.
     origin: Point2<f64>,
@@ -101,13 +103,16 @@ impl Candidates {
     /// Adds places round the old one, denser near it. Often a step aside is enough to let a finger pass, and the
     /// borders of shadows are not among the curves.
     fn add_spiral(&mut self, layout: &Layout<'_>) {
-        let reach = 2.0 * layout.scene().gripper().corner_distance(&self.own);
+        let gripper = layout.scene().gripper();
+        let reach =
+            2.0 * self.own.core().map_or_else(|| gripper.corner_distance(&self.own), |_| self.own.circumradius());
         scatter::spiral(self.origin, reach).for_each(|at| self.add_place(at));
     }
 
     fn empty(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let scene = layout.scene();
-        let own = layout.footprint(spec.object);
+        let stands = layout.footprint(spec.object);
+        let own = stands.moved_to(Pose { at: stands.at(), yaw: spec.yaw });
         let origin = match spec.objective {
             Objective::FarFromTarget => spec.focus,
             Objective::ShortMoves => own.at(),
@@ -129,8 +134,8 @@ impl Candidates {
     pub(super) fn spread(layout: &Layout<'_>, spec: PlaceSpec) -> Self {
         let mut candidates = Self::empty(layout, spec);
         let top = layout.scene().table().top();
-        let inset = Vector2::repeat(candidates.edge());
-        scatter::even(top.min() + inset, top.max() - inset).for_each(|at| candidates.add_place(at));
+        let [low, high] = insets(&candidates.own, spec.edge_gap);
+        scatter::even(top.min() + low, top.max() - high).for_each(|at| candidates.add_place(at));
         candidates
     }
 
@@ -142,7 +147,7 @@ impl Candidates {
         while let Some(entry) = self.heap.pop() {
             let before = self.heap.len();
             match entry.kind {
-                Kind::Place => return Ok(Some(entry.at.into())),
+                Kind::Place => return Ok(Some(Pose { at: entry.at, yaw: self.spec.yaw })),
                 Kind::Obstacle(object) => {
                     self.expanded[object.get()] = true;
                     let (obstacle, border) = (layout.footprint(object).at(), self.beside(layout, object));
@@ -151,7 +156,7 @@ impl Candidates {
                 Kind::KeepOut(at) => {
                     self.expanded_areas[at] = true;
                     let area = layout.scene().table().keep_out()[at];
-                    let border = Border::outside(self.own.shape, &area, self.spec.edge_gap);
+                    let border = Border::outside(&self.own, &area, self.spec.edge_gap);
                     let middle = nalgebra::center(&area.min(), &area.max());
                     self.expand(layout, &border, middle, border.farthest(middle));
                 }
@@ -176,7 +181,7 @@ impl Candidates {
 
     /// True if no other object is nearer to `place` than `gap`, m. The index only narrows the choice.
     fn stands_free(&self, layout: &Layout<'_>, place: &Footprint, gap: f64) -> bool {
-        layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.gap(&other) >= gap)
+        layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.gap(other) >= gap)
     }
 
     fn score(&self, at: Point2<f64>) -> f64 {
@@ -191,13 +196,13 @@ impl Candidates {
         self.heap.push(HeapEntry { score: self.score(at), at, kind: Kind::Place });
     }
 
-    /// The distance of the object's origin from the table's edge and from keep-outs, m.
+    /// The distance of the object's origin from keep-outs, at most, m.
     fn edge(&self) -> f64 {
-        keep(self.own.shape, self.spec.edge_gap)
+        self.own.circumradius() + self.spec.edge_gap + INSIDE
     }
 
     fn add_table(&mut self, layout: &Layout<'_>) {
-        self.table = Border::inside(self.own.shape, &layout.scene().table().top(), self.spec.edge_gap);
+        self.table = Border::inside(&self.own, &layout.scene().table().top(), self.spec.edge_gap);
         let (table, origin) = (self.table.clone(), self.origin);
         table.extremes(origin, |at| self.add_place(at));
     }
@@ -206,9 +211,7 @@ impl Candidates {
         let keep = self.edge();
         for (at, area) in layout.scene().table().keep_out().iter().enumerate() {
             let score = match self.spec.objective {
-                Objective::FarFromTarget => {
-                    Border::outside(self.own.shape, area, self.spec.edge_gap).farthest(self.origin)
-                }
+                Objective::FarFromTarget => Border::outside(&self.own, area, self.spec.edge_gap).farthest(self.origin),
                 Objective::ShortMoves => -(area.distance(self.origin) - keep).max(0.0),
             };
             self.heap.push(HeapEntry { score, at: area.min(), kind: Kind::KeepOut(at) });
@@ -221,7 +224,7 @@ impl Candidates {
             self.span = self.span.max(border.farthest(at));
             let score = match self.spec.objective {
                 Objective::FarFromTarget => border.farthest(self.origin),
-                Objective::ShortMoves => -border.nearest_of_circles(self.origin),
+                Objective::ShortMoves => -border.nearest(self.origin),
             };
             self.heap.push(HeapEntry { score, at, kind: Kind::Obstacle(object) });
         }
@@ -229,8 +232,10 @@ impl Candidates {
 
     /// The border beside an obstacle.
     fn beside(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> Border {
-        let gripper = layout.scene().gripper();
-        Border::beside(self.own.shape, &layout.footprint(obstacle), gripper, self.spec.gap)
+        let scene = layout.scene();
+        let own = Placed { object: scene.object(self.spec.object), footprint: &self.own };
+        let obstacle = Placed { object: scene.object(obstacle), footprint: layout.footprint(obstacle) };
+        Border::beside(own, obstacle, scene.gripper(), self.spec.gap)
     }
 
     /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.
@@ -245,7 +250,7 @@ impl Candidates {
         for (area, _) in layout.scene().table().keep_out().iter().zip(&self.expanded_areas).filter(|(_, done)| !**done)
         {
             if area.distance(centre) - (reach + self.edge()) <= 0.0 {
-                border.meet(&Border::outside(self.own.shape, area, self.spec.edge_gap), &mut add);
+                border.meet(&Border::outside(&self.own, area, self.spec.edge_gap), &mut add);
             }
         }
         places.into_iter().for_each(|at| self.add_place(at));
@@ -281,7 +286,7 @@ mod tests {
     fn places_beyond_the_limit_are_forgotten_even_with_equal_scores() {
         let scene = TestScene::new(3).disc("cup", 1.0, 1.0, 0.05).disc("plate", 0.5, 1.0, 0.1).build("cup");
         let (object, objective) = (ObjectIndex::new(1), Objective::FarFromTarget);
-        let spec = PlaceSpec { object, gap: 0.0, edge_gap: 0.0, objective, focus: Point2::new(1.0, 1.0) };
+        let spec = PlaceSpec { object, yaw: 0.0, gap: 0.0, edge_gap: 0.0, objective, focus: Point2::new(1.0, 1.0) };
         let mut candidates = Candidates::empty(&Layout::new(&scene, &SweptFinger), spec);
         let place = |n: u32| HeapEntry { score: 0.5, at: Point2::new(f64::from(n), 0.0), kind: Kind::Place };
         let curve = HeapEntry { kind: Kind::Obstacle(object), ..place(0) };

@@ -12,6 +12,7 @@ mod curves;
 mod drop_offs;
 mod effort;
 mod layout;
+mod orientations;
 mod scatter;
 mod tabletop;
 mod task;

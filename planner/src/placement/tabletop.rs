@@ -5,7 +5,7 @@ use super::candidates::Candidates;
 use super::effort::{BEAT, EffortMeter};
 use super::layout::Layout;
 use crate::budget::Stop;
-use crate::geometry::{Grasp, widest_grasp};
+use crate::geometry::Hold;
 use crate::scene::{Footprint, ObjectIndex, Pose, distance};
 
 /// The effort of one search for a free yaw, in tried places.
@@ -30,24 +30,24 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         self.meter.spend(effort)
     }
 
-    /// The widest grasp of an object where it stands.
-    pub(super) fn grasp(&mut self, object: ObjectIndex) -> Result<Option<Grasp>, Stop> {
+    /// The free ways to hold an object where it stands.
+    pub(super) fn hold(&mut self, object: ObjectIndex) -> Result<Option<Hold>, Stop> {
         self.meter.spend(GRASP_EFFORT)?;
-        Ok(self.layout.grasp(object))
+        Ok(self.layout.hold(object))
     }
 
-    /// The next best place, with its release: the lifted object fits there and can be released, and all later grasps
+    /// The next best place, with the ways to release the object there: the lifted object fits there and can be released, and all later grasps
     /// stay possible.
     pub(super) fn next_place(
         &mut self,
         candidates: &mut Candidates,
-        object: ObjectIndex,
+        (object, hold): (ObjectIndex, Hold),
         rest: &[ObjectIndex],
         skip: impl Fn(Pose) -> bool,
-    ) -> Result<Option<(Pose, Grasp)>, Stop> {
+    ) -> Result<Option<(Pose, Hold)>, Stop> {
         while let Some(at) = candidates.next(&self.layout, &mut self.meter)? {
             if !skip(at)
-                && let Some(release) = self.release(candidates, object, at, rest)?
+                && let Some(release) = self.release(candidates, (object, hold), at, rest)?
             {
                 return Ok(Some((at, release)));
             }
@@ -59,14 +59,14 @@ impl<'a, 'e> Tabletop<'a, 'e> {
     pub(super) fn pull_back(
         &mut self,
         candidates: &Candidates,
-        object: ObjectIndex,
+        (object, hold): (ObjectIndex, Hold),
         rest: &[ObjectIndex],
-        place: (Pose, Grasp),
-    ) -> Result<(Pose, Grasp), Stop> {
+        place: (Pose, Hold),
+    ) -> Result<(Pose, Hold), Stop> {
         let (mut free, mut blocked) = (place, self.layout.footprint(object).at());
         for _ in 0..HALVINGS {
-            let middle = Pose::from(nalgebra::center(&free.0.at, &blocked));
-            match self.release(candidates, object, middle, rest)? {
+            let middle = Pose { at: nalgebra::center(&free.0.at, &blocked), ..free.0 };
+            match self.release(candidates, (object, hold), middle, rest)? {
                 Some(release) => free = (middle, release),
                 None => blocked = middle.at,
             }
@@ -74,24 +74,27 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         Ok(free)
     }
 
-    /// The widest release of the lifted object at `at`, if it fits there and all later grasps stay possible.
+    /// The ways to release the lifted object at `at`, picked in one of the ways of `hold`, if it fits there and all later grasps stay
+    /// possible. A listed grasp is kept, so it must be free at both places.
     fn release(
         &mut self,
         candidates: &Candidates,
-        object: ObjectIndex,
+        (object, hold): (ObjectIndex, Hold),
         at: Pose,
         rest: &[ObjectIndex],
-    ) -> Result<Option<Grasp>, Stop> {
+    ) -> Result<Option<Hold>, Stop> {
         self.meter.spend(1 + self.layout.scene().table().keep_out().len() / BEAT)?;
         if !candidates.fits(&self.layout, at) {
             return Ok(None);
         }
         let place = self.layout.footprint(object).moved_to(at);
-        let gripper = self.layout.scene().gripper();
-        if widest_grasp(gripper, &self.layout.blocked(object, &place, INSIDE)).is_none() {
+        let Some(clear) = self.layout.hold_at(object, &place, INSIDE).and_then(|clear| clear.and(hold)) else {
             return Ok(None);
-        }
-        let release = widest_grasp(gripper, &self.layout.blocked(object, &place, 0.0));
+        };
+        let release = match clear {
+            Hold::AtYaw(_) => self.layout.hold_at(object, &place, 0.0),
+            Hold::Listed(_) => Some(clear),
+        };
         self.meter.spend(GRASP_EFFORT)?;
         Ok(if release.is_some() && self.leaves_the_rest_free(object, &place, rest)? { release } else { None })
     }
@@ -108,13 +111,13 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         let target = scene.target();
         let hinders = |layout: &Layout<'_>, other: ObjectIndex| {
             let grasped = layout.footprint(other);
-            distance(grasped.at(), place.at()) < layout.reach(&grasped) + place.circumradius()
+            distance(grasped.at(), place.at()) < layout.reach(other) + place.circumradius()
         };
         if !rest.iter().chain(&target).any(|&other| hinders(&self.layout, other)) {
             return Ok(true);
         }
         self.layout.lift(object, false);
-        let before = self.layout.put(object, place.pose);
+        let before = self.layout.put(object, place.pose());
         let free = self.rest_can_be_lifted(rest);
         self.layout.take_back(object, before);
         self.layout.lift(object, true);
@@ -135,7 +138,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
         while !standing.is_empty() {
             let mut stuck = Vec::new();
             for &object in &standing {
-                if self.grasp(object)?.is_some() {
+                if self.hold(object)?.is_some() {
                     self.layout.lift(object, true);
                     lifted.push(object);
                 } else {
@@ -148,7 +151,7 @@ impl<'a, 'e> Tabletop<'a, 'e> {
             standing = stuck;
         }
         match self.layout.scene().target() {
-            Some(target) => Ok(self.grasp(target)?.is_some()),
+            Some(target) => Ok(self.hold(target)?.is_some()),
             None => Ok(true),
         }
     }

@@ -67,7 +67,7 @@ pub(crate) fn free_candidates(scene: &Scene, model: &dyn GraspModel, gone: &[Obj
 /// True if one of the objects that are gone stood near enough to the candidate to have blocked it: no other set frees it.
 fn frees_any(scene: &Scene, model: &dyn GraspModel, gone: &[ObjectIndex], candidate: ObjectIndex) -> bool {
     let grasped = scene.object(candidate).footprint();
-    let reach = model.reach(scene.gripper(), &grasped);
+    let reach = model.reach(scene.gripper(), scene.object(candidate));
     gone.iter().any(|&object| scene.object(object).footprint().comes_within(grasped.at(), reach))
 }
 

@@ -116,7 +116,7 @@ fn steps(
         if choice.is_some() && drop_offs.take(object, |looks| ticker.step(looks)).is_err() {
             break;
         }
-        let from = layout.footprint(object).pose;
+        let from = layout.footprint(object).pose();
         let grasp: Grasp = grasped(scene, object, layout.grasp(object))?;
         layout.take_away(object);
         chaining.move_away(object);

@@ -1,12 +1,14 @@
 //! States what the planner found: from indices to ids.
 
+use core::f64::consts::{PI, TAU};
+
 use crate::cost::Cost;
 use crate::geometry::Grasp;
 use crate::knowledge::Locks;
 use crate::placement::{Arrangement, Move, Relocation, Removal};
-use crate::scene::{Goal, ObjectIndex, Scene};
+use crate::scene::{Goal, ObjectIndex, Pose, Scene};
 use crate::search::LeastSet;
-use crate::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use crate::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
 
 impl Statement {
     /// The target can be grasped as the table stands: so every bound is met.
@@ -75,7 +77,7 @@ impl Statement {
 
 impl From<Grasp> for StatedGrasp {
     fn from(grasp: Grasp) -> Self {
-        Self { yaw: grasp.yaw, slack: Some(grasp.slack) }
+        Self { at: Some(grasp.axis), yaw: grasp.yaw, slack: Some(grasp.slack) }
     }
 }
 
@@ -95,7 +97,7 @@ pub(super) fn locked(scene: &Scene, blocked: &[ObjectIndex], core: &[ObjectIndex
 fn pick_drop(scene: &Scene, step: &Removal) -> PickDrop {
     PickDrop {
         object: scene.object(step.object).id().to_owned(),
-        from: Some(step.from),
+        from: Some(pose(scene, step.object, step.from)),
         grasp: step.grasp.into(),
         drop_off: scene.drop_offs()[step.drop_off].id().to_owned(),
     }
@@ -104,12 +106,29 @@ fn pick_drop(scene: &Scene, step: &Removal) -> PickDrop {
 fn pick_place(scene: &Scene, step: &Relocation) -> PickPlace {
     PickPlace {
         object: scene.object(step.object).id().to_owned(),
-        from: Some(step.from),
-        to: step.to,
+        from: Some(pose(scene, step.object, step.from)),
+        to: pose(scene, step.object, step.to),
         grasp: step.grasp.into(),
         release: step.release.into(),
+        turn: turns(scene, step.object).then(|| turn(step.from, step.to)),
         gap: Some(step.gap),
     }
+}
+
+/// True unless the object may be grasped at every yaw: then nobody knows how far it turns, and nobody sees it.
+fn turns(scene: &Scene, object: ObjectIndex) -> bool {
+    scene.object(object).grasps().listed().is_some()
+}
+
+fn pose(scene: &Scene, object: ObjectIndex, pose: Pose) -> StatedPose {
+    StatedPose { at: pose.at, yaw: turns(scene, object).then_some(pose.yaw) }
+}
+
+/// How far a frame turns, rad, in (−π, π].
+fn turn(from: Pose, to: Pose) -> f64 {
+    let turn = to.yaw - from.yaw;
+    let turn = turn - TAU * (turn / TAU).round();
+    if turn <= -PI { PI } else { turn }
 }
 
 /// The ids of objects, in the same order.

@@ -1,9 +1,10 @@
 //! The draft of a scene: unchecked input.
 
 use super::drop_off::{Destination, DropOffDraft};
-use super::footprint::ShapeDraft;
 use super::goal::GoalDraft;
+use super::grasps::GraspDraft;
 use super::gripper::Opening;
+use super::shape_draft::ShapeDraft;
 
 /// An unchecked scene. `None` means that the part was absent or unreadable; the reader of the input reports that if the part is
 /// required.
@@ -62,6 +63,12 @@ pub struct GripperDraft {
     pub max_opening: Option<f64>,
     /// Default: [`Opening::Fit`].
     pub opening: Option<Opening>,
+    /// m. Default: no palm.
+    pub finger_length: Option<f64>,
+    /// m. Default: no palm.
+    pub palm_radius: Option<f64>,
+    /// m. Default: 0.
+    pub tip_height: Option<f64>,
 }
 
 /// An unchecked object.
@@ -69,12 +76,18 @@ pub struct GripperDraft {
 pub struct ObjectDraft {
     /// The caller's name for it.
     pub id: Option<String>,
-    /// Centre, m.
+    /// The origin of its frame, m.
     pub x: Option<f64>,
-    /// Centre, m.
+    /// The origin of its frame, m.
     pub y: Option<f64>,
+    /// How far its frame is turned, rad. Default: 0.
+    pub yaw: Option<f64>,
     /// What it covers of the table.
     pub shape: ShapeDraft,
+    /// How high it stands over the table, m; `None` if that is not known.
+    pub height: Option<f64>,
+    /// How it may be grasped; `None` for what goes with its shape.
+    pub grasps: Option<Vec<GraspDraft>>,
     /// True if it can't be moved.
     pub fixed: bool,
 }

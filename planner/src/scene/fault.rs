@@ -19,6 +19,12 @@ pub enum Place {
     Object(usize, &'static str),
     /// The n-th object as a whole.
     WholeObject(usize),
+    /// A field of the n-th object's shape.
+    Shape(usize, &'static str),
+    /// A coordinate of the m-th point of the n-th object's shape.
+    Point(usize, usize, &'static str),
+    /// A field of the m-th grasp of the n-th object.
+    Grasp(usize, usize, &'static str),
     /// The target's id.
     Target,
     /// A field of the goal: its list of ids.

@@ -6,8 +6,8 @@ use super::Rectangle;
 use super::limits::MAX_ID_LENGTH;
 
 /// The kind of a fault or warning. Warnings are: an overlap within the tolerance, fingers that overlap, a disc that
-/// hangs over the table's edge, a number that looks like a slip of its unit, an object too wide for the hand, a drop-off that
-/// accepts what is not there.
+/// hangs over the table's edge, a number that looks like a slip of its unit, an object that the hand can't grasp, what is assumed
+/// of shapes, grasps and heights, a drop-off that accepts what is not there.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Flaw {
     /// A number outside its range, bounds included.
@@ -109,6 +109,54 @@ pub enum Flaw {
         /// The hand's greatest opening, m.
         max_opening: f64,
     },
+    /// An object has no grasp, or is no higher than the fingertips. As the goal it is a fault, elsewhere a warning.
+    #[error("'{0}' has no grasp that the hand can do")]
+    NoGrasp(String),
+    /// Objects are grasped in the ways that go with their shapes.
+    #[error("grasped as their shapes suggest, since no grasps are stated: {}", Named(.0))]
+    DefaultGrasps(Vec<String>),
+    /// Objects of unknown height, which the palm is taken to pass over.
+    #[error("without a height, so that the palm is taken to pass over them: {}", Named(.0))]
+    UnknownHeight(Vec<String>),
+    /// More grasps of one object than the limit.
+    #[error("{count} grasps are more than the limit of {max}")]
+    TooManyGrasps {
+        /// Grasps given.
+        count: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// The tolerance of a grasp is half of the angle between two fingers or more.
+    #[error("the tolerance of a grasp is below π/{fingers}")]
+    WideTolerance {
+        /// k.
+        fingers: u32,
+    },
+    /// More points of one polygon than the limit.
+    #[error("{count} points are more than the limit of {max}")]
+    TooManyPoints {
+        /// Points given.
+        count: usize,
+        /// The most that is admitted.
+        max: usize,
+    },
+    /// The points of a polygon are on one line.
+    #[error("a polygon has at least three points that are not on one line")]
+    NoArea,
+    /// A polygon that is not convex, or crosses itself, is planned as its hull.
+    #[error("is not convex and is planned as its convex hull: its area grows from {stated:.6} m² to {area:.6} m²")]
+    ConvexHull {
+        /// The area within the points as they are given, m².
+        stated: f64,
+        /// The area of their hull, m².
+        area: f64,
+    },
+    /// A palm is stated by half.
+    #[error("the field '{0}' is required where the palm is described")]
+    PalmByHalf(&'static str),
+    /// A frame is turned by more than a whole turn.
+    #[error("a yaw of {0} rad is more than a whole turn: degrees instead of radians?")]
+    ManyTurns(f64),
     /// No drop-off accepts an object that is to be taken away.
     #[error("no drop-off accepts '{0}'")]
     NotAccepted(String),
@@ -200,6 +248,24 @@ impl Flaw {
     pub(super) fn unknown_id(id: &str, known: impl FnOnce(String) -> Self) -> Self {
         let length = id.chars().count();
         if length > MAX_ID_LENGTH { Self::IdLength { length, max: MAX_ID_LENGTH } } else { known(id.to_owned()) }
+    }
+}
+
+/// The most ids that a sentence names.
+const MAX_NAMED: usize = 100;
+
+/// Ids as a list, which ends early.
+struct Named<'a>(&'a [String]);
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, id) in self.0.iter().take(MAX_NAMED).enumerate() {
+            write!(f, "{}'{id}'", if at == 0 { "" } else { ", " })?;
+        }
+        match self.0.len().saturating_sub(MAX_NAMED) {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
     }
 }
 

@@ -1,8 +1,11 @@
 //! The footprint of an object on the table: its shape and its pose.
 
-use nalgebra::Point2;
+use std::sync::Arc;
 
-use super::limits::LENGTH_RANGE;
+use nalgebra::{Point2, Vector2};
+
+use super::convex::{Core, direction};
+use super::shape::Shape;
 use super::table::Rectangle;
 
 /// Where an object's own frame stands.
@@ -10,75 +13,45 @@ use super::table::Rectangle;
 pub struct Pose {
     /// The frame's origin, m.
     pub at: Point2<f64>,
-}
-
-/// A shape in its own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
-    /// A disc round the origin.
-    Disc {
-        /// m, positive.
-        radius: f64,
-    },
-}
-
-/// An unchecked shape. `None` means that the part was absent or unreadable.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ShapeDraft {
-    /// The radius of a disc, m.
-    pub radius: Option<f64>,
+    /// How far the frame is turned, rad, counter-clockwise.
+    pub yaw: f64,
 }
 
 /// A shape on the table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Footprint {
-    /// The shape.
-    pub shape: Shape,
-    /// Where it stands.
-    pub pose: Pose,
+    shape: Shape,
+    pose: Pose,
+    /// The core, turned as the frame is.
+    turned: Option<Arc<Core>>,
 }
 
 impl From<Point2<f64>> for Pose {
     fn from(at: Point2<f64>) -> Self {
-        Self { at }
-    }
-}
-
-impl ShapeDraft {
-    /// A disc.
-    pub fn disc(radius: f64) -> Self {
-        Self { radius: Some(radius) }
-    }
-
-    /// The shape, if every length is in its range; `ranged` reports those that are not, by the name of their field.
-    pub(super) fn checked(
-        &self,
-        mut ranged: impl FnMut(Option<f64>, (f64, f64), &'static str) -> Option<f64>,
-    ) -> Option<Shape> {
-        ranged(self.radius, LENGTH_RANGE, "radius").map(|radius| Shape::Disc { radius })
-    }
-}
-
-impl Shape {
-    /// The radius of the greatest circle round the origin inside the shape, m.
-    pub fn inradius(&self) -> f64 {
-        match *self {
-            Self::Disc { radius } => radius,
-        }
-    }
-
-    /// The radius of the least circle round the origin that holds the shape, m.
-    pub fn circumradius(&self) -> f64 {
-        match *self {
-            Self::Disc { radius } => radius,
-        }
+        Self { at, yaw: 0.0 }
     }
 }
 
 impl Footprint {
+    /// A shape at a pose.
+    pub fn new(shape: Shape, pose: Pose) -> Self {
+        let turned = shape.core().map(|core| Arc::new(core.turned(direction(pose.yaw))));
+        Self { shape, pose, turned }
+    }
+
     /// A disc.
     pub fn disc(centre: Point2<f64>, radius: f64) -> Self {
-        Self { shape: Shape::Disc { radius }, pose: centre.into() }
+        Self::new(Shape::disc(radius), centre.into())
+    }
+
+    /// The shape, in its own frame.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Where its frame stands.
+    pub fn pose(&self) -> Pose {
+        self.pose
     }
 
     /// The origin of its frame, m.
@@ -86,10 +59,23 @@ impl Footprint {
         self.pose.at
     }
 
+    /// The core relative to [`Footprint::at`], turned as the frame is; `None` for a point there.
+    pub fn core(&self) -> Option<&Core> {
+        self.turned.as_deref()
+    }
+
+    /// How far the core is grown, m.
+    pub fn radius(&self) -> f64 {
+        self.shape.radius()
+    }
+
     /// The same shape somewhere else.
     #[must_use]
-    pub fn moved_to(self, pose: Pose) -> Self {
-        Self { pose, ..self }
+    pub fn moved_to(&self, pose: Pose) -> Self {
+        if self.turned.is_none() || pose.yaw == self.pose.yaw {
+            return Self { pose, ..self.clone() };
+        }
+        Self::new(self.shape.clone(), pose)
     }
 
     /// No point of it is farther from [`Footprint::at`] than this, m.
@@ -97,40 +83,57 @@ impl Footprint {
         self.shape.circumradius()
     }
 
+    /// How far it reaches along x and y from [`Footprint::at`], m: towards smaller coordinates, then towards greater ones.
+    pub fn extents(&self) -> [Vector2<f64>; 2] {
+        let grown = Vector2::repeat(self.radius());
+        let Some(core) = self.core() else { return [-grown, grown] };
+        let first = core.vertices()[0];
+        let (min, max) = core.vertices().iter().fold((first, first), |(min, max), v| (min.inf(v), max.sup(v)));
+        [min - grown, max + grown]
+    }
+
     /// The corners of its bounding box: left below, right above.
     pub fn bounding_box(&self) -> [Point2<f64>; 2] {
-        let (at, radius) = (self.at(), self.circumradius());
-        [Point2::new(at.x - radius, at.y - radius), Point2::new(at.x + radius, at.y + radius)]
+        self.extents().map(|extent| self.at() + extent)
     }
 
     /// True if its edge is nearer to `point` than `reach`, m.
     pub fn comes_within(&self, point: Point2<f64>, reach: f64) -> bool {
-        match self.shape {
-            Shape::Disc { radius } => distance(self.at(), point) < reach + radius,
-        }
+        let away = match self.core() {
+            None => distance(self.at(), point),
+            Some(core) => core.distance_to_point(point - self.at()),
+        };
+        away < reach + self.radius()
     }
 
-    /// Distance from edge to edge, m; negative where the two overlap.
+    /// Distance from edge to edge, m; where the two overlap minus the least translation that parts them.
     pub fn gap(&self, other: &Self) -> f64 {
-        match (self.shape, other.shape) {
-            (Shape::Disc { radius }, Shape::Disc { radius: others }) => {
-                distance(self.at(), other.at()) - radius - others
-            }
-        }
+        let towards = other.at() - self.at();
+        let apart = match (self.core(), other.core()) {
+            (None, None) => distance(self.at(), other.at()),
+            (Some(core), None) => core.distance_to_point(towards),
+            (None, Some(core)) => core.distance_to_point(-towards),
+            (Some(core), Some(others)) => core.distance_to(others, towards),
+        };
+        apart - self.radius() - other.radius()
     }
 
     /// Least distance from its edge to the border of a rectangle round its origin, m; negative where it sticks out.
     pub fn gap_inside(&self, area: &Rectangle) -> f64 {
-        match self.shape {
-            Shape::Disc { radius } => area.depth(self.at()) - radius,
-        }
+        let depth = match self.core() {
+            None => area.depth(self.at()),
+            Some(core) => core.vertices().iter().map(|v| area.depth(self.at() + v)).fold(f64::INFINITY, f64::min),
+        };
+        depth - self.radius()
     }
 
     /// Distance from its edge to a rectangle, m; negative where they overlap.
     pub fn gap_outside(&self, area: &Rectangle) -> f64 {
-        match self.shape {
-            Shape::Disc { radius } => area.distance(self.at()) - radius,
-        }
+        let apart = match self.core() {
+            None => area.distance(self.at()),
+            Some(core) => core.distance_to_box(area.min() - self.at(), area.max() - self.at()),
+        };
+        apart - self.radius()
     }
 }
 

@@ -14,6 +14,17 @@ pub struct Gripper {
     pub(super) yaw_tolerance: f64,
     pub(super) max_opening: Option<f64>,
     pub(super) opening: Opening,
+    pub(super) palm: Option<Palm>,
+    pub(super) tip_height: f64,
+}
+
+/// What the fingers hang from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Palm {
+    /// How far it is above the fingertips, m.
+    pub finger_length: f64,
+    /// The radius of a disc round the gripper's axis that covers it, m.
+    pub radius: f64,
 }
 
 /// How far the fingers open before a grasp, and after a release.
@@ -67,12 +78,22 @@ impl Gripper {
         self.opening
     }
 
-    /// True if `grasped` fits between the open fingers.
-    pub fn spans(&self, grasped: &Footprint) -> bool {
+    /// The palm; `None` if nothing is said of it, and so nothing can meet it.
+    pub fn palm(&self) -> Option<Palm> {
+        self.palm
+    }
+
+    /// How high over the table the fingertips are where the object's height does not say more, m.
+    pub fn tip_height(&self) -> f64 {
+        self.tip_height
+    }
+
+    /// True if a disc fits between the open fingers.
+    pub(super) fn spans(&self, grasped: &Footprint) -> bool {
         self.max_opening.is_none_or(|opening| grasped.circumradius() <= opening / 2.0)
     }
 
-    /// R, the distance of the open fingers' outer edges from the origin of `grasped`, m.
+    /// R, the distance of the open fingers' outer edges from the origin of a disc, m.
     pub fn outer_distance(&self, grasped: &Footprint) -> f64 {
         let inner = match (self.opening, self.max_opening) {
             (Opening::Full, Some(opening)) => opening / 2.0,
@@ -91,14 +112,14 @@ impl Gripper {
         (2.0 * self.yaw_tolerance).max(MIN_FREE_WIDTH)
     }
 
-    /// The distance from the centre of `grasped` within which another object (its edge) can block the open fingers, m.
-    pub fn reach(&self, grasped: &Footprint) -> f64 {
-        self.corner_distance(grasped) + self.margin
+    /// The greatest distance of the open fingers' outer corners from the origin of a disc, m.
+    pub fn corner_distance(&self, grasped: &Footprint) -> f64 {
+        self.corner(self.outer_distance(grasped))
     }
 
-    /// The greatest distance of the open fingers' outer corners from the origin of `grasped`, m.
-    pub fn corner_distance(&self, grasped: &Footprint) -> f64 {
-        let (outer, half) = (self.outer_distance(grasped), self.finger_width / 2.0);
+    /// The distance from the gripper's axis to the outer corners of fingers that reach to `outer`, m.
+    pub fn corner(&self, outer: f64) -> f64 {
+        let half = self.finger_width / 2.0;
         (outer * outer + half * half).sqrt()
     }
 }

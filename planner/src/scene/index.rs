@@ -29,11 +29,11 @@ impl FootprintIndex {
     }
 
     /// The objects that come nearer than `reach` to `centre` (edge to point, m), in no particular order.
-    pub fn within(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, Footprint)> + '_ {
+    pub fn within(&self, centre: Point2<f64>, reach: f64) -> impl Iterator<Item = (ObjectIndex, &Footprint)> {
         let corner = |sign: f64| [centre.x + sign * reach, centre.y + sign * reach];
         self.tree
             .locate_in_envelope_intersecting(AABB::from_corners(corner(-1.0), corner(1.0)))
-            .map(|entry| entry.data)
+            .map(|entry| (entry.data.0, &entry.data.1))
             .filter(move |(_, footprint)| footprint.comes_within(centre, reach))
     }
 }
@@ -51,7 +51,7 @@ mod tests {
                 Footprint::disc(centre, if n % 29 == 0 { 0.3 } else { 0.001 * f64::from(n % 7 + 1) })
             })
             .collect();
-        let index = FootprintIndex::new(discs.iter().copied());
+        let index = FootprintIndex::new(discs.iter().cloned());
         for n in 0..50_u32 {
             let centre = Point2::new(f64::from(n) / 25.0 - 1.0, f64::from(n * 7 % 50) / 25.0);
             let mut found: Vec<_> = index.within(centre, 0.1).map(|(object, _)| object).collect();

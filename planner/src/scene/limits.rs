@@ -2,12 +2,24 @@
 
 /// Coordinates, m. At 100 km a double still resolves 1.5e-11 m, well below the checker's 1e-9 m.
 pub const COORDINATE_RANGE: (f64, f64) = (-1e5, 1e5);
-/// Radii, finger width, clearance and greatest opening, m.
+/// Radii, sides, heights, finger width and length, palm, clearance and greatest opening, m.
 pub const LENGTH_RANGE: (f64, f64) = (1e-6, 1e3);
 /// Margin, m.
 pub const MARGIN_RANGE: (f64, f64) = (0.0, 1e3);
 /// Yaw tolerance, rad.
 pub const YAW_TOLERANCE_RANGE: (f64, f64) = (0.0, core::f64::consts::PI);
+/// The height of fingertips over the table, m.
+pub const TIP_HEIGHT_RANGE: (f64, f64) = (0.0, 1e3);
+/// How far an object, or a grasp in its frame, is turned, rad. A tracker may count whole turns.
+pub const YAW_RANGE: (f64, f64) = (-1e3, 1e3);
+/// The points of a polygon in the object's own frame, m.
+pub const POINT_RANGE: (f64, f64) = (-1e3, 1e3);
+/// The gripper's axis in the object's own frame, m.
+pub const GRASP_OFFSET_RANGE: (f64, f64) = (-1e3, 1e3);
+/// The most points of a polygon.
+pub const MAX_POINTS: usize = 32;
+/// The most grasps of one object. A set of them is 64 bits.
+pub const MAX_GRASPS: usize = 64;
 /// k: two fingers are the fewest that hold, and no gripper is known with more than twelve.
 pub const FINGERS_RANGE: (f64, f64) = (2.0, 12.0);
 /// How many objects a drop-off takes.
@@ -24,7 +36,7 @@ pub struct SceneLimits {
     pub max_objects: usize,
     /// The most obstacles within reach of one grasp.
     pub max_neighbours: usize,
-    /// The deepest overlap of two discs that counts as perception noise, m.
+    /// The deepest overlap of two footprints that counts as perception noise, m.
     pub overlap_tolerance: f64,
 }
 

@@ -4,12 +4,15 @@
 //! on the table, overlaps are no deeper than perception noise, and what the goal names can be grasped. [`Scene::new`] is the only
 //! way to make one.
 
+mod closing;
+mod convex;
 mod draft;
 mod drop_off;
 mod fault;
 mod flaw;
 mod footprint;
 mod goal;
+mod grasps;
 mod gripper;
 mod index;
 mod limits;
@@ -17,6 +20,8 @@ mod object;
 mod relations;
 #[cfg(test)]
 pub(crate) mod scenes;
+mod shape;
+mod shape_draft;
 mod slips;
 mod table;
 mod validate;
@@ -24,19 +29,23 @@ mod wanted;
 
 use std::sync::Arc;
 
+pub use convex::{Axis, Core, direction, turned};
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 pub use drop_off::{Destination, DropOff, DropOffDraft};
 pub use fault::{Finding, MAX_FINDINGS, Place};
 pub use flaw::{Flaw, Likely, Yardstick};
-pub use footprint::{Footprint, Pose, Shape, ShapeDraft, distance};
+pub use footprint::{Footprint, Pose, distance};
 pub use goal::{Goal, GoalDraft};
-pub use gripper::{Gripper, MIN_FREE_WIDTH, Opening};
+pub use grasps::{DEFAULT_TOLERANCE, GraspDraft, Grasps, ListedGrasp};
+pub use gripper::{Gripper, MIN_FREE_WIDTH, Opening, Palm};
 pub use index::FootprintIndex;
 pub use limits::{
-    CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_DROP_OFFS, MAX_ID_LENGTH,
-    SceneLimits, YAW_TOLERANCE_RANGE,
+    CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, GRASP_OFFSET_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_DROP_OFFS,
+    MAX_GRASPS, MAX_ID_LENGTH, MAX_POINTS, POINT_RANGE, SceneLimits, TIP_HEIGHT_RANGE, YAW_RANGE, YAW_TOLERANCE_RANGE,
 };
-pub use object::{Object, ObjectIndex};
+pub use object::{Object, ObjectIndex, Placed};
+pub use shape::Shape;
+pub use shape_draft::ShapeDraft;
 pub use table::{Rectangle, Table};
 
 /// A valid scene. Cheap to clone.
@@ -87,6 +96,12 @@ impl Scene {
         &self.parts.objects[index.get()]
     }
 
+    /// One object where it stands at the start.
+    pub fn placed(&self, index: ObjectIndex) -> Placed<'_> {
+        let object = self.object(index);
+        Placed { object, footprint: object.footprint() }
+    }
+
     /// Every object's index, in order.
     pub fn indices(&self) -> impl Iterator<Item = ObjectIndex> + use<> {
         (0..self.parts.objects.len()).map(ObjectIndex::new)
@@ -129,8 +144,8 @@ impl Scene {
         *self.goal == Goal::Clear || self.parts.destination == Destination::DropOff
     }
 
-    /// True if a plan may move the object, the goal's own candidates apart. All others are as if fixed: those that are, those too
-    /// wide for the hand, and where what is moved leaves the table, those that no drop-off accepts.
+    /// True if a plan may move the object, the goal's own candidates apart. All others are as if fixed: those that are, those that the
+    /// hand can't grasp, and where what is moved leaves the table, those that no drop-off accepts.
     pub fn movable(&self, object: ObjectIndex) -> bool {
         let object = self.object(object);
         object.can_be_grasped() && (object.accepted || !self.only_drops())

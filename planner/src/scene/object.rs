@@ -2,6 +2,7 @@
 
 use super::flaw::Flaw;
 use super::footprint::Footprint;
+use super::grasps::{Grasps, ListedGrasp};
 use super::gripper::Gripper;
 
 /// The position of an object in its scene's list. The planner names objects only by it.
@@ -25,9 +26,30 @@ impl ObjectIndex {
 pub struct Object {
     pub(super) id: String,
     pub(super) footprint: Footprint,
+    pub(super) height: Option<f64>,
+    pub(super) grasps: Grasps,
+    /// Whether some grasp is left that the hand can do.
+    pub(super) hindrance: Option<Hindrance>,
     pub(super) fixed: bool,
-    pub(super) too_wide: bool,
     pub(super) accepted: bool,
+}
+
+/// Why no hand grasps an object that is not fixed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Hindrance {
+    /// It is wider than the greatest opening: its width, m.
+    TooWide(f64),
+    /// It has no grasp, or is no higher than the fingertips.
+    NoGrasp,
+}
+
+/// An object where it stands, or may stand.
+#[derive(Debug, Clone, Copy)]
+pub struct Placed<'a> {
+    /// The object.
+    pub object: &'a Object,
+    /// Where it stands.
+    pub footprint: &'a Footprint,
 }
 
 impl Object {
@@ -36,15 +58,42 @@ impl Object {
         &self.id
     }
 
-    /// The flaw of being too wide for the hand; none for an object that nobody grasps.
-    pub(super) fn wider_than(&self, gripper: &Gripper) -> Option<Flaw> {
-        let max_opening = gripper.max_opening().filter(|_| !self.fixed && !gripper.spans(&self.footprint))?;
-        Some(Flaw::TooWide { id: self.id.clone(), width: 2.0 * self.footprint.circumradius(), max_opening })
+    /// The flaw of not being graspable though it is not fixed.
+    pub(super) fn flaw(&self, gripper: &Gripper) -> Option<Flaw> {
+        let id = || self.id.clone();
+        match (self.hindrance?, gripper.max_opening()) {
+            (Hindrance::TooWide(width), Some(max_opening)) => Some(Flaw::TooWide { id: id(), width, max_opening }),
+            _ => Some(Flaw::NoGrasp(id())),
+        }
+    }
+
+    /// Finds out whether any grasp is left that the hand can do.
+    pub(super) fn find_hindrance(&mut self, gripper: &Gripper) {
+        self.hindrance = match &self.grasps {
+            _ if self.fixed => None,
+            _ if self.height.is_some_and(|height| height <= gripper.tip_height()) => Some(Hindrance::NoGrasp),
+            Grasps::EveryYaw => {
+                let width = 2.0 * self.footprint.circumradius();
+                (!gripper.spans(&self.footprint)).then_some(Hindrance::TooWide(width))
+            }
+            Grasps::Listed(list) if list.iter().any(ListedGrasp::fits) => None,
+            listed => Some(listed.least_width().map_or(Hindrance::NoGrasp, Hindrance::TooWide)),
+        };
     }
 
     /// Where it stands at the start.
-    pub fn footprint(&self) -> Footprint {
-        self.footprint
+    pub fn footprint(&self) -> &Footprint {
+        &self.footprint
+    }
+
+    /// How high it stands over the table, m; `None` if that is not known.
+    pub fn height(&self) -> Option<f64> {
+        self.height
+    }
+
+    /// How it may be grasped, whatever the hand can do.
+    pub fn grasps(&self) -> &Grasps {
+        &self.grasps
     }
 
     /// True if the caller calls it fixed.
@@ -57,8 +106,51 @@ impl Object {
         self.accepted
     }
 
-    /// True if it is not fixed and fits between the open fingers.
+    /// True if it is not fixed and the hand can grasp it in some way.
     pub fn can_be_grasped(&self) -> bool {
-        !self.fixed && !self.too_wide
+        !self.fixed && self.hindrance.is_none()
+    }
+
+    /// How near to the gripper's axis a finger closes at least, m: for a disc its radius.
+    pub(super) fn closest_finger(&self) -> f64 {
+        match &self.grasps {
+            Grasps::EveryYaw => self.footprint.shape().inradius(),
+            Grasps::Listed(list) => {
+                let inner = list.iter().filter(|grasp| grasp.fits()).flat_map(ListedGrasp::inner);
+                inner.copied().fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// How high over the table the fingertips are when they grasp it, m.
+    pub fn tips(&self, gripper: &Gripper) -> f64 {
+        match (gripper.palm(), self.height) {
+            (Some(palm), Some(height)) => gripper.tip_height().max(height - palm.finger_length),
+            _ => gripper.tip_height(),
+        }
+    }
+
+    /// True if fingers that grasp it pass over `obstacle`.
+    pub fn fingers_pass_over(&self, obstacle: &Self, gripper: &Gripper) -> bool {
+        obstacle.height.is_some_and(|height| height <= self.tips(gripper))
+    }
+
+    /// How near to the gripper's axis the edge of `obstacle` may come, so that the palm does not meet it when the gripper grasps
+    /// this object, m; `None` where it passes over.
+    pub fn palm_distance(&self, obstacle: &Self, gripper: &Gripper) -> Option<f64> {
+        let (palm, height) = (gripper.palm()?, obstacle.height?);
+        (height > self.tips(gripper) + palm.finger_length).then_some(palm.radius + gripper.margin())
+    }
+
+    /// The distance from the origin of its frame within which the edge of another object can hinder a grasp of it, m.
+    pub fn reach(&self, gripper: &Gripper) -> f64 {
+        let palm = gripper.palm().map_or(0.0, |palm| palm.radius);
+        let reach = match &self.grasps {
+            Grasps::EveryYaw => gripper.corner_distance(&self.footprint).max(palm),
+            Grasps::Listed(list) => {
+                list.iter().map(|grasp| grasp.reach(gripper).max(palm) + grasp.offset()).fold(0.0, f64::max)
+            }
+        };
+        reach + gripper.margin()
     }
 }

@@ -8,15 +8,15 @@ use super::slips;
 use super::{Footprint, FootprintIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
 
 /// Depths that differ by no more count as equal, m: half a micrometre, since overlaps are reported to the micrometre.
-/// So discs that touch, or overlap by exactly the tolerance in decimals, are judged as written. Rounding to doubles
+/// So objects that touch, or overlap by exactly the tolerance in decimals, are judged as written. Rounding to doubles
 /// changes a depth by at most 3e-11 m (four coordinates at 100 km).
 const TOUCHING: f64 = 5e-7;
 
-/// A disc may hang over the table's edge by this share of its radius without a warning: perception errs, and plates do
+/// An object may hang over the table's edge by this share of its radius without a warning: perception errs, and plates do
 /// stand like that. Past it, a wrong position or size is likelier.
 const OVERHANG: f64 = 1.0 / 3.0;
 
-/// Warns of discs that hang over the table's edge; their centres are on it.
+/// Warns of objects that hang over the table's edge; their centres are on it.
 pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findings) {
     for (at, Object { footprint, .. }) in objects.iter().enumerate() {
         let (overhang, radius) = (-footprint.gap_inside(&top), footprint.circumradius());
@@ -27,7 +27,7 @@ pub(super) fn overhangs(top: Rectangle, objects: &[Object], warnings: &mut Findi
 }
 
 /// Reports every overlapping pair once, at the later object: as a fault past the tolerance, as a warning up to it.
-/// Fixed objects may overlap each other, since several discs may make up one thing. A movable disc that overlaps more
+/// Fixed objects may overlap each other, since several discs may make up one thing. A movable object that overlaps more
 /// objects than a grasp may have neighbours is refused for that, which bounds the work.
 pub(super) fn overlaps(
     objects: &[Object],
@@ -65,8 +65,10 @@ pub(super) fn overlaps(
 }
 
 /// The objects that may overlap with a footprint, itself among them.
-fn touching<'a>(index: &'a FootprintIndex, footprint: &Footprint) -> impl Iterator<Item = ObjectIndex> + 'a {
-    index.within(footprint.at(), footprint.circumradius()).map(|(other, _)| other)
+fn touching<'a>(index: &'a FootprintIndex, footprint: &'a Footprint) -> impl Iterator<Item = ObjectIndex> + 'a {
+    let disc = footprint.core().is_none();
+    let near = index.within(footprint.at(), footprint.circumradius());
+    near.filter(move |(_, other)| disc || footprint.gap(other) < 0.0).map(|(other, _)| other)
 }
 
 /// Reports the overlap of the object at `at` with an earlier one.
@@ -101,14 +103,14 @@ pub(super) fn reach(
     let half_angle_tangent = libm::tan(gripper.period() / 2.0);
     for (at, object) in objects.iter().enumerate().filter(|(_, object)| object.can_be_grasped()) {
         let id = || object.id.clone();
-        let reach = gripper.reach(&object.footprint);
+        let reach = object.reach(gripper);
         // The index finds the object itself too.
         if index.within(object.footprint.at(), reach).take(limits.max_neighbours + 2).count()
             > limits.max_neighbours + 1
         {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
         }
-        let radius = object.footprint.shape.inradius();
+        let radius = object.closest_finger();
         if gripper.finger_width / 2.0 > radius * half_angle_tangent {
             let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
             warnings.add(Place::WholeObject(at), flaw);

@@ -13,6 +13,14 @@ fn rectangle([x_min, y_min, x_max, y_max]: [f64; 4]) -> RectangleDraft {
     RectangleDraft { x_min: Some(x_min), y_min: Some(y_min), x_max: Some(x_max), y_max: Some(y_max) }
 }
 
+/// The radius of a disc.
+fn radius_of(object: &ObjectDraft) -> f64 {
+    match object.shape {
+        ShapeDraft::Radius(radius) => radius.unwrap_or_default(),
+        _ => 0.0,
+    }
+}
+
 impl TestScene {
     pub(crate) fn new(fingers: u32) -> Self {
         let gripper = GripperDraft {
@@ -58,10 +66,40 @@ impl TestScene {
         self
     }
 
-    pub(crate) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
-        let object =
-            ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed: false };
+    pub(crate) fn disc(self, id: &str, x: f64, y: f64, radius: f64) -> Self {
+        let object = ObjectDraft {
+            id: Some(id.into()),
+            x: Some(x),
+            y: Some(y),
+            shape: ShapeDraft::disc(radius),
+            ..Default::default()
+        };
+        self.object(object)
+    }
+
+    pub(crate) fn object(mut self, object: ObjectDraft) -> Self {
         self.0.objects.push(object);
+        self
+    }
+
+    /// A rectangle of `length` by `width` at (x, y), turned by `yaw`.
+    pub(crate) fn rectangle(self, id: &str, [x, y, yaw]: [f64; 3], [length, width]: [f64; 2]) -> Self {
+        let shape = ShapeDraft::Rectangle { length: Some(length), width: Some(width), corner_radius: None };
+        let (id, yaw) = (Some(id.into()), Some(yaw));
+        self.object(ObjectDraft { id, x: Some(x), y: Some(y), yaw, shape, ..ObjectDraft::default() })
+    }
+
+    /// A hand with a palm.
+    pub(crate) fn palm(mut self, finger_length: f64, radius: f64) -> Self {
+        let (finger_length, palm_radius) = (Some(finger_length), Some(radius));
+        self.0.gripper = GripperDraft { finger_length, palm_radius, ..self.0.gripper };
+        self
+    }
+
+    /// The object `id` is so high.
+    pub(crate) fn height(mut self, id: &str, height: f64) -> Self {
+        let object = self.0.objects.iter_mut().find(|object| object.id.as_deref() == Some(id));
+        object.expect("an object of the scene").height = Some(height);
         self
     }
 
@@ -71,7 +109,7 @@ impl TestScene {
         for (at, &(x, y, radius)) in discs.iter().enumerate() {
             let apart = |other: &ObjectDraft| {
                 let (dx, dy) = (other.x.unwrap_or_default() - x, other.y.unwrap_or_default() - y);
-                (dx * dx + dy * dy).sqrt() - other.shape.radius.unwrap_or_default() - radius
+                (dx * dx + dy * dy).sqrt() - radius_of(other) - radius
             };
             if self.0.objects.iter().all(|other| apart(other) >= 0.0) {
                 self = self.disc(&format!("d{at}"), x, y, radius);

@@ -1,5 +1,6 @@
 //! Validation: from a draft to a scene, or to the list of its faults.
 
+use core::f64::consts::TAU;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -8,14 +9,18 @@ use nalgebra::Point2;
 use super::drop_off::drop_offs;
 use super::fault::{Finding, Findings, Place};
 use super::flaw::Flaw;
+use super::grasps::Grasps;
+use super::gripper::Palm;
 use super::limits::{
-    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
+    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, TIP_HEIGHT_RANGE,
+    YAW_RANGE, YAW_TOLERANCE_RANGE,
 };
 use super::relations::{overhangs, overlaps, reach};
+use super::shape_draft::ranged;
 use super::slips;
 use super::wanted::{attainable, named};
 use super::{
-    Destination, DropOff, Footprint, FootprintIndex, Gripper, GripperDraft, Object, ObjectDraft, Opening, Parts,
+    Destination, DropOff, Footprint, FootprintIndex, Gripper, GripperDraft, Object, ObjectDraft, Opening, Parts, Pose,
     Rectangle, RectangleDraft, Scene, SceneDraft, Table, TableDraft,
 };
 
@@ -29,12 +34,12 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     let table = table(&draft.table, &mut faults);
     let gripper = gripper(&draft.gripper, &mut faults);
     let ids = unique_ids(&draft.objects, &mut faults);
-    let objects: Vec<Option<Object>> = draft
-        .objects
-        .iter()
-        .enumerate()
-        .map(|(at, object)| self::object(at, object, table.as_ref(), &mut faults))
-        .collect();
+    // Told after the slips, which may explain them.
+    let mut assumed = Findings::default();
+    let mut reader =
+        Objects { table: table.as_ref(), gripper: gripper.as_ref(), faults: &mut faults, warnings: &mut assumed };
+    let objects: Vec<Option<Object>> =
+        draft.objects.iter().enumerate().map(|(at, object)| reader.object(at, object)).collect();
     let stated = draft.drop_offs.as_deref().unwrap_or_default();
     let mut unknown = Findings::default();
     let drop_offs = drop_offs(stated, &ids, &mut faults, &mut unknown);
@@ -46,15 +51,17 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     }
     // Positions must keep their meaning in the index, so relations are judged only where every object is readable.
     let Some(mut objects) = objects.into_iter().collect::<Option<Vec<Object>>>() else { return Err(faults.into_vec()) };
-    let index = FootprintIndex::new(objects.iter().map(Object::footprint));
+    let index = FootprintIndex::new(objects.iter().map(|object| object.footprint.clone()));
     if let (Some(table), Some(gripper)) = (&table, &gripper) {
         // Slips first, before the warnings that follow from them.
         slips::slips(table.top, gripper, &objects, &mut warnings);
         overhangs(table.top, &objects, &mut warnings);
     }
+    warnings.append(assumed);
     overlaps(&objects, &index, limits, &mut faults, &mut warnings);
     if let Some(gripper) = &gripper {
-        too_wide(gripper, &mut objects, &mut warnings);
+        not_graspable(gripper, &mut objects, &mut warnings);
+        assumptions(gripper, &draft.objects, &objects, &mut warnings);
         reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
     }
     let (Some(table), Some(gripper), Some(drop_offs), Some(goal)) = (table, gripper, drop_offs, goal) else {
@@ -71,13 +78,29 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     Ok((Scene { parts: Arc::new(parts), goal: Arc::new(goal) }, warnings.into_vec()))
 }
 
-/// Marks and warns of objects that no hand spans.
-fn too_wide(gripper: &Gripper, objects: &mut [Object], warnings: &mut Findings) {
+/// Marks and warns of objects that the hand can't grasp.
+fn not_graspable(gripper: &Gripper, objects: &mut [Object], warnings: &mut Findings) {
     for (at, object) in objects.iter_mut().enumerate() {
-        if let Some(flaw) = object.wider_than(gripper) {
-            object.too_wide = true;
-            warnings.add(Place::WholeObject(at), flaw);
-        }
+        object.find_hindrance(gripper);
+        warnings.extend(Place::WholeObject(at), object.flaw(gripper));
+    }
+}
+
+/// Warns of what is assumed of grasps and heights.
+fn assumptions(gripper: &Gripper, drafts: &[ObjectDraft], objects: &[Object], warnings: &mut Findings) {
+    let ids = |of: &dyn Fn(&ObjectDraft, &Object) -> bool| -> Vec<String> {
+        let those = drafts.iter().zip(objects).filter(|(draft, object)| of(draft, object));
+        those.map(|(_, object)| object.id.clone()).collect()
+    };
+    let by_default = ids(&|draft, object| {
+        draft.grasps.is_none() && object.can_be_grasped() && matches!(object.grasps, Grasps::Listed(_))
+    });
+    if !by_default.is_empty() {
+        warnings.add(Place::Objects, Flaw::DefaultGrasps(by_default));
+    }
+    let unknown = if gripper.palm.is_some() { ids(&|_, object| object.height.is_none()) } else { Vec::new() };
+    if !unknown.is_empty() {
+        warnings.add(Place::Objects, Flaw::UnknownHeight(unknown));
     }
 }
 
@@ -88,16 +111,6 @@ fn accept(drop_offs: &[DropOff], objects: &mut [Object]) {
     for accepted in drop_offs.iter().filter_map(DropOff::accepts).flatten() {
         objects[accepted.get()].accepted = true;
     }
-}
-
-/// The value, if it is present and in its range.
-fn ranged(value: Option<f64>, (min, max): (f64, f64), place: Place, faults: &mut Findings) -> Option<f64> {
-    let value = value?;
-    if (min..=max).contains(&value) {
-        return Some(value);
-    }
-    faults.add(place, Flaw::OutOfRange { value, min, max });
-    None
 }
 
 fn rectangle(
@@ -141,6 +154,8 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
     let max_opening = draft.max_opening.map(|value| field(Some(value), LENGTH_RANGE, "max_opening"));
     let yaw_tolerance = yaw_tolerance(draft.yaw_tolerance, faults);
     let opening = draft.opening.unwrap_or_default();
+    let palm = palm(draft, faults);
+    let tip_height = ranged(draft.tip_height.or(Some(0.0)), TIP_HEIGHT_RANGE, Place::Gripper("tip_height"), faults);
     if opening == Opening::Full && max_opening.is_none() {
         faults.add(Place::Gripper("max_opening"), Flaw::NoMaxOpening);
         return None;
@@ -164,7 +179,27 @@ fn gripper(draft: &GripperDraft, faults: &mut Findings) -> Option<Gripper> {
             None => None,
         },
         opening,
+        palm: palm?,
+        tip_height: tip_height?,
     })
+}
+
+/// The outer `None` stands for a fault.
+#[expect(clippy::option_option, reason = "a fault, no palm, or a palm")]
+fn palm(draft: &GripperDraft, faults: &mut Findings) -> Option<Option<Palm>> {
+    let mut field = |value: Option<f64>, other: Option<f64>, name| match (value, other) {
+        (None, Some(_)) => {
+            faults.add(Place::Gripper(name), Flaw::PalmByHalf(name));
+            None
+        }
+        _ => ranged(value, LENGTH_RANGE, Place::Gripper(name), faults),
+    };
+    let finger_length = field(draft.finger_length, draft.palm_radius, "finger_length");
+    let radius = field(draft.palm_radius, draft.finger_length, "palm_radius");
+    if draft.finger_length.is_none() && draft.palm_radius.is_none() {
+        return Some(None);
+    }
+    Some(Some(Palm { finger_length: finger_length?, radius: radius? }))
 }
 
 fn yaw_tolerance(value: Option<f64>, faults: &mut Findings) -> Option<f64> {
@@ -192,21 +227,46 @@ fn unique_ids<'a>(objects: &'a [ObjectDraft], faults: &mut Findings) -> HashMap<
     ids
 }
 
-fn object(at: usize, draft: &ObjectDraft, table: Option<&Table>, faults: &mut Findings) -> Option<Object> {
-    let mut field = |value, range, name| ranged(value, range, Place::Object(at, name), faults);
-    let x = field(draft.x, COORDINATE_RANGE, "x");
-    let y = field(draft.y, COORDINATE_RANGE, "y");
-    let shape = draft.shape.checked(&mut field);
-    let centre = Point2::new(x?, y?);
-    if let Some(top) = table.map(|table| table.top).filter(|top| !top.contains(centre)) {
-        let likely = slips::off_table(top, centre);
-        faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y, top, likely });
+/// Reads objects.
+struct Objects<'a> {
+    table: Option<&'a Table>,
+    gripper: Option<&'a Gripper>,
+    faults: &'a mut Findings,
+    warnings: &'a mut Findings,
+}
+
+impl Objects<'_> {
+    fn object(&mut self, at: usize, draft: &ObjectDraft) -> Option<Object> {
+        let mut field = |value, range, name| ranged(value, range, Place::Object(at, name), self.faults);
+        let x = field(draft.x, COORDINATE_RANGE, "x");
+        let y = field(draft.y, COORDINATE_RANGE, "y");
+        let yaw = field(draft.yaw.or(Some(0.0)), YAW_RANGE, "yaw");
+        let height = match draft.height {
+            Some(height) => field(Some(height), LENGTH_RANGE, "height").map(Some),
+            None => Some(None),
+        };
+        let shape = draft.shape.checked(at, self.faults, self.warnings);
+        let grasps = self.gripper.zip(shape.as_ref()).and_then(|(gripper, shape)| {
+            Grasps::new(at, (&draft.shape, shape), draft.grasps.as_deref(), gripper, self.faults)
+        });
+        let centre = Point2::new(x?, y?);
+        if let Some(top) = self.table.map(|table| table.top).filter(|top| !top.contains(centre)) {
+            let likely = slips::off_table(top, centre);
+            self.faults.add(Place::WholeObject(at), Flaw::OffTable { x: centre.x, y: centre.y, top, likely });
+        }
+        if let Some(yaw) = yaw.filter(|yaw| yaw.abs() > TAU) {
+            self.warnings.add(Place::Object(at, "yaw"), Flaw::ManyTurns(yaw));
+        }
+        // Without a gripper there is no scene, and how it grasps does not matter.
+        let grasps = if self.gripper.is_some() { grasps? } else { Grasps::EveryYaw };
+        Some(Object {
+            id: draft.id.clone()?,
+            footprint: Footprint::new(shape?, Pose { at: centre, yaw: yaw? }),
+            height: height?,
+            grasps,
+            hindrance: None,
+            fixed: draft.fixed,
+            accepted: false,
+        })
     }
-    Some(Object {
-        id: draft.id.clone()?,
-        footprint: Footprint { shape: shape?, pose: centre.into() },
-        fixed: draft.fixed,
-        too_wide: false,
-        accepted: false,
-    })
 }

@@ -65,7 +65,7 @@ pub(super) fn named(
     }
 }
 
-/// The goal without members of which one suffices and that are too wide. Reports what can't be grasped, or not taken away.
+/// The goal without members of which one suffices and that are not graspable. Reports what can't be grasped, or not taken away.
 pub(super) fn attainable(
     goal: Goal,
     objects: &[Object],
@@ -73,16 +73,16 @@ pub(super) fn attainable(
     drop_offs: &[DropOff],
     faults: &mut Findings,
 ) -> Goal {
-    let wide = |object: ObjectIndex| objects[object.get()].wider_than(gripper);
+    let flaw = |object: ObjectIndex| objects[object.get()].flaw(gripper);
     match goal {
         Goal::Target(target) => {
-            faults.extend(Place::Target, wide(target));
+            faults.extend(Place::Target, flaw(target));
             goal
         }
         Goal::AnyOf(members) => {
-            let mut fitting: Vec<_> = members.iter().copied().filter(|&member| wide(member).is_none()).collect();
+            let mut fitting: Vec<_> = members.iter().copied().filter(|&member| flaw(member).is_none()).collect();
             if fitting.is_empty() {
-                faults.extend(Place::Goal("any_of"), wide(members[0]));
+                faults.extend(Place::Goal("any_of"), flaw(members[0]));
             }
             fitting.sort_unstable();
             Goal::AnyOf(fitting)
@@ -93,7 +93,7 @@ pub(super) fn attainable(
             }
             for (at, &member) in members.iter().enumerate() {
                 let (place, object) = (Place::GoalMember("all_of", at), &objects[member.get()]);
-                faults.extend(place, wide(member));
+                faults.extend(place, flaw(member));
                 if !drop_offs.is_empty() && !object.accepted {
                     faults.add(place, Flaw::NotAccepted(object.id.clone()));
                 }

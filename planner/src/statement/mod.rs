@@ -5,7 +5,7 @@ mod step;
 
 use crate::cost::Cost;
 
-pub use step::{PickDrop, PickPlace, StatedGrasp, Step};
+pub use step::{PickDrop, PickPlace, StatedGrasp, StatedPose, Step};
 
 /// A stated answer. Parts that are `None` are not checked.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,5 +1,7 @@
 //! The steps of a plan: one variant for each action that the robot can do.
 
+use nalgebra::Point2;
+
 use crate::cost::Cost;
 use crate::scene::Pose;
 
@@ -18,13 +20,15 @@ pub struct PickPlace {
     /// The id of the object moved.
     pub object: String,
     /// Where it stood.
-    pub from: Option<Pose>,
+    pub from: Option<StatedPose>,
     /// Where it is put.
-    pub to: Pose,
+    pub to: StatedPose,
     /// How it is picked.
     pub grasp: StatedGrasp,
     /// How it is let go.
     pub release: StatedGrasp,
+    /// How far the object turns, rad; `None` for a disc that may be grasped at every yaw.
+    pub turn: Option<f64>,
     /// The least distance to another object at the new place, edge to edge, m.
     pub gap: Option<f64>,
 }
@@ -35,20 +39,43 @@ pub struct PickDrop {
     /// The id of the object taken away.
     pub object: String,
     /// Where it stood.
-    pub from: Option<Pose>,
+    pub from: Option<StatedPose>,
     /// How it is picked.
     pub grasp: StatedGrasp,
     /// The id of the drop-off that it is taken to.
     pub drop_off: String,
 }
 
+/// Where an object's frame is said to stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StatedPose {
+    /// The frame's origin, m.
+    pub at: Point2<f64>,
+    /// How far the frame is turned, rad; `None` for a disc that may be grasped at every yaw.
+    pub yaw: Option<f64>,
+}
+
 /// A stated grasp or release.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StatedGrasp {
+    /// The gripper's axis, m; `None` for the origin of the object's frame.
+    pub at: Option<Point2<f64>>,
     /// Direction of finger 0, rad, counter-clockwise from +x.
     pub yaw: f64,
     /// The free angle on each side of the yaw, rad.
     pub slack: Option<f64>,
+}
+
+impl From<Pose> for StatedPose {
+    fn from(pose: Pose) -> Self {
+        Self { at: pose.at, yaw: Some(pose.yaw) }
+    }
+}
+
+impl From<StatedPose> for Pose {
+    fn from(StatedPose { at, yaw }: StatedPose) -> Self {
+        Self { at, yaw: yaw.unwrap_or_default() }
+    }
 }
 
 impl Step {
@@ -61,7 +88,7 @@ impl Step {
     }
 
     /// Where the step leaves the object; `None` if not on the table.
-    pub fn rests_at(&self) -> Option<Pose> {
+    pub fn rests_at(&self) -> Option<StatedPose> {
         match self {
             Self::PickPlace(step) => Some(step.to),
             Self::PickDrop(_) => None,
@@ -85,7 +112,7 @@ impl Step {
     }
 
     /// Where the object stands on the table before and after, as far as stated.
-    pub fn places(&self) -> impl Iterator<Item = Pose> + use<> {
+    pub fn places(&self) -> impl Iterator<Item = StatedPose> + use<> {
         match self {
             Self::PickPlace(step) => step.from.into_iter().chain(Some(step.to)),
             Self::PickDrop(step) => step.from.into_iter().chain(None),

@@ -29,7 +29,7 @@ use nalgebra::Point2;
 
 use super::angles::radius;
 use crate::budget::{Budget, Interrupted};
-use crate::geometry::{Grasp, widest_grasp};
+use crate::geometry::Grasp;
 use crate::knowledge::GraspModel;
 use crate::placement::{Arrangement, INSIDE, Layout, Move, Relocation};
 use crate::scene::{Footprint, ObjectIndex, Pose, Scene};
@@ -76,17 +76,17 @@ struct Pictured<'a> {
 
 impl Pictured<'_> {
     fn grasp(&self, object: ObjectIndex) -> Grasp {
-        self.layout.grasp(object).unwrap_or(Grasp { yaw: 0.0, slack: 0.0 })
+        let axis = self.layout.footprint(object).at();
+        self.layout.grasp(object).unwrap_or(Grasp { axis, yaw: 0.0, slack: 0.0 })
     }
 
     fn relocate(&mut self, object: ObjectIndex, to: Pose) -> Relocation {
-        let (footprint, grasp) = (self.layout.footprint(object), self.grasp(object));
-        let placed = footprint.moved_to(to);
-        let release = widest_grasp(self.scene.gripper(), &self.layout.blocked(object, &placed, 0.0));
-        let release = release.unwrap_or(Grasp { slack: 0.0, ..grasp });
+        let (from, grasp) = (self.layout.footprint(object).pose(), self.grasp(object));
+        let placed = self.layout.footprint(object).moved_to(to);
         let gap = self.layout.gap(object, &placed);
         self.layout.put(object, to);
-        Relocation { object, from: footprint.pose, to, grasp, release, gap }
+        let release = self.layout.grasp(object).unwrap_or(Grasp { axis: to.at, slack: 0.0, ..grasp });
+        Relocation { object, from, to, grasp, release, gap }
     }
 
     /// The marked place farthest from the target; the first in row order among equals.
@@ -97,7 +97,7 @@ impl Pictured<'_> {
         budget: &Budget<'_>,
     ) -> Result<Option<Point2<f64>>, Interrupted> {
         let (raster, top) = (self.raster, self.scene.table().top());
-        let radius = radius(&self.layout.footprint(object));
+        let radius = radius(self.layout.footprint(object));
         let edge = radius + INSIDE;
         let columns = raster.columns_between(top.min().x + edge, top.max().x - edge);
         let rows = raster.rows_between(top.min().y + edge, top.max().y - edge);
@@ -127,24 +127,24 @@ impl Pictured<'_> {
         Ok(best.map(|(_, at)| at))
     }
 
-    fn others(&self, object: ObjectIndex) -> impl Iterator<Item = (ObjectIndex, Footprint)> + '_ {
+    fn others(&self, object: ObjectIndex) -> impl Iterator<Item = (ObjectIndex, &Footprint)> {
         self.scene.indices().filter(move |&other| other != object).map(|other| (other, self.layout.footprint(other)))
     }
 
     /// Fig. 5c: the other objects grown by the clearance.
     fn grown(&self, object: ObjectIndex) -> Vec<Blot> {
         let clearance = self.scene.gripper().clearance();
-        self.others(object).map(|(_, disc)| Blot::disc(&disc, clearance)).collect()
+        self.others(object).map(|(_, disc)| Blot::disc(disc, clearance)).collect()
     }
 
     /// The places where the object's centre may not be: too near to others, to keep-outs, or to objects still to be
     /// grasped.
     fn taken(&self, object: ObjectIndex, later: &[ObjectIndex]) -> Vec<Blot> {
-        let (gripper, radius) = (self.scene.gripper(), radius(&self.layout.footprint(object)));
+        let (gripper, radius) = (self.scene.gripper(), radius(self.layout.footprint(object)));
         let apart = radius + gripper.margin() + INSIDE;
-        let around = |object: &ObjectIndex| Blot::disc(&self.layout.footprint(*object), apart + gripper.clearance());
+        let around = |object: &ObjectIndex| Blot::disc(self.layout.footprint(*object), apart + gripper.clearance());
         let keep_outs = self.scene.table().keep_out().iter().map(|area| Blot::round(area, radius + INSIDE));
-        let others = self.others(object).map(|(_, disc)| Blot::disc(&disc, apart));
+        let others = self.others(object).map(|(_, disc)| Blot::disc(disc, apart));
         let target = self.target;
         others.chain(keep_outs).chain(later.iter().chain([&target]).map(around)).collect()
     }

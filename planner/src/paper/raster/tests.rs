@@ -4,10 +4,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::budget::clocks::Looks;
-use crate::geometry::ArcSet;
+use crate::geometry::{ArcSet, Shadow};
 use crate::knowledge::{GraspModel, SweptFinger};
-use crate::scene::Gripper;
 use crate::scene::scenes::TestScene;
+use crate::scene::{Gripper, Placed};
 
 fn relocations(arrangement: &Arrangement) -> Vec<Relocation> {
     let relocation = |step: &Move| if let Move::Place(relocation) = step { Some(*relocation) } else { None };
@@ -34,7 +34,7 @@ fn by_plain_counting(scene: &Scene, raster: &Raster, object: ObjectIndex) -> Opt
     let (gripper, own) = (scene.gripper(), scene.object(object).footprint());
     let (margin, target) = (gripper.margin(), scene.object(scene.target().unwrap()).footprint());
     let others: Vec<Footprint> =
-        scene.indices().filter(|o| *o != object).map(|o| scene.object(o).footprint()).collect();
+        scene.indices().filter(|o| *o != object).map(|o| scene.object(o).footprint().clone()).collect();
     let mut pixels = Vec::new();
     for row in 0..raster.rows() {
         pixels.extend((0..raster.columns()).map(|column| raster.centre(column, row)));
@@ -100,7 +100,7 @@ proptest! {
         let order: Vec<ObjectIndex> = scene.indices().skip(1).take(4).collect();
         let ids: Vec<&str> = order.iter().map(|object| scene.object(*object).id()).collect();
         let Some(moved) = moved(&scene, &ids, resolution) else { return Ok(()) };
-        let mut now: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint()).collect();
+        let mut now: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint().clone()).collect();
         for (at, step) in moved.iter().enumerate() {
             let placed = now[step.object.get()].moved_to(step.to);
             for (other, disc) in now.iter().enumerate().filter(|(other, _)| *other != step.object.get()) {
@@ -111,7 +111,7 @@ proptest! {
             }
             prop_assert!(placed.gap_inside(&scene.table().top()) > 0.0);
             prop_assert!(placed.gap_outside(&scene.table().keep_out()[0]) > 0.0);
-            prop_assert_eq!(now[step.object.get()].pose, step.from);
+            prop_assert_eq!(now[step.object.get()].pose(), step.from);
             now[step.object.get()] = placed;
         }
     }
@@ -146,10 +146,10 @@ fn an_object_wider_than_the_table_has_no_place() {
 struct OnlyAtHome;
 
 impl GraspModel for OnlyAtHome {
-    fn shadow(&self, gripper: &Gripper, grasped: &Footprint, _: &Footprint, _: f64) -> ArcSet {
-        let at_home = grasped.at() == Point2::new(0.15, 0.06);
+    fn shadow(&self, gripper: &Gripper, grasped: Placed<'_>, _: Placed<'_>, _: f64) -> Shadow {
+        let at_home = grasped.footprint.at() == Point2::new(0.15, 0.06);
         let period = gripper.period();
-        if at_home { ArcSet::fold(period, &[(-0.1, 1.0), (3.0, 3.1)]) } else { ArcSet::full(period) }
+        Shadow::Yaws(if at_home { ArcSet::fold(period, &[(-0.1, 1.0), (3.0, 3.1)]) } else { ArcSet::full(period) })
     }
 
     fn options(&self, _: &Scene, _: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
@@ -173,8 +173,9 @@ fn a_grasp_or_release_that_is_blocked_is_stated_without_slack() {
         .unwrap();
     let [first, second] = relocations(&plan)[..] else { unreachable!("two steps") };
     assert!((first.grasp.yaw - 2.0).abs() < 1e-9 && (first.grasp.slack - 1.0).abs() < 1e-9, "{first:?}");
-    assert_eq!(first.release, Grasp { slack: 0.0, ..first.grasp });
-    assert_eq!((second.grasp, second.release), (Grasp { yaw: 0.0, slack: 0.0 }, Grasp { yaw: 0.0, slack: 0.0 }));
+    assert_eq!(first.release, Grasp { axis: first.to.at, slack: 0.0, ..first.grasp });
+    let unknown = |axis| Grasp { axis, yaw: 0.0, slack: 0.0 };
+    assert_eq!((second.grasp, second.release), (unknown(second.from.at), unknown(second.to.at)));
 }
 
 #[test]

@@ -1,0 +1,138 @@
+//! One finger against an obstacle with a core, exactly: the turns of the finger at which it comes too near.
+//!
+//! While the finger turns about the gripper's axis, whether it comes nearer to the core than ρ can only change where a vertex of
+//! the core meets the outline of the finger grown by ρ, or a corner of the finger meets an edge of the core grown by ρ. Each such
+//! turn is a closed form. Between two of them nothing changes, so one distance in the middle decides.
+
+use core::f64::consts::{PI, TAU};
+
+use nalgebra::Vector2;
+use smallvec::SmallVec;
+
+use super::finger::{BlockedOffsets, SweptRectangle};
+use crate::scene::{Core, direction};
+
+type Turns = SmallVec<[f64; 24]>;
+
+/// The turns from the direction +x, as intervals (lo, hi) of at most 2π, at which the finger comes nearer than `rho` ≥ 0 (m) to a
+/// core that is given relative to the gripper's axis.
+pub(super) fn blocked_turns(finger: &SweptRectangle, core: &Core, rho: f64) -> SmallVec<[(f64, f64); 4]> {
+    let mut cuts: Turns = cuts(finger, core, rho).into_iter().map(|turn| turn - TAU * (turn / TAU).floor()).collect();
+    cuts.sort_unstable_by(f64::total_cmp);
+    let Some(&first) = cuts.first() else {
+        return if meets(finger, core, rho, 0.0) { SmallVec::from_slice(&[(0.0, TAU)]) } else { SmallVec::new() };
+    };
+    cuts.push(first + TAU);
+    let mut blocked: SmallVec<[(f64, f64); 4]> = SmallVec::new();
+    for piece in cuts.windows(2) {
+        let (lo, hi) = (piece[0], piece[1]);
+        if lo < hi && meets(finger, core, rho, f64::midpoint(lo, hi)) {
+            match blocked.last_mut() {
+                Some(last) if last.1 >= lo => last.1 = hi,
+                _ => blocked.push((lo, hi)),
+            }
+        }
+    }
+    blocked
+}
+
+/// True if the finger comes nearer than `rho` (m) at some turn of at most `band` (rad) either way. The core is given relative to
+/// the gripper's axis with the finger along +x; `None` stands for a point at `at`.
+pub(super) fn meets_within(
+    finger: &SweptRectangle,
+    core: Option<&Core>,
+    at: Vector2<f64>,
+    rho: f64,
+    band: f64,
+) -> bool {
+    let Some(core) = core else { return point_meets_within(finger, at, rho, band) };
+    let room = gap(finger, core, 0.0) - rho;
+    // No point of the finger moves farther than its corner.
+    if room < 0.0 || band == 0.0 || room >= finger.corner_distance() * band {
+        return room < 0.0;
+    }
+    let within = |turn: f64| Some(turn - TAU * (turn / TAU).round()).filter(|turn| turn.abs() < band);
+    let mut cuts: Turns = cuts(finger, core, rho).into_iter().filter_map(within).collect();
+    cuts.extend([-band, band]);
+    cuts.sort_unstable_by(f64::total_cmp);
+    cuts.windows(2).any(|piece| piece[0] < piece[1] && meets(finger, core, rho, f64::midpoint(piece[0], piece[1])))
+        || [-band, band].into_iter().any(|end| meets(finger, core, rho, end))
+}
+
+/// The same for a point.
+fn point_meets_within(finger: &SweptRectangle, at: Vector2<f64>, rho: f64, band: f64) -> bool {
+    let away = length(at);
+    if away == 0.0 {
+        return finger.inner < rho;
+    }
+    let (first, last) = match finger.blocked_offsets(away, rho) {
+        BlockedOffsets::Clear => return false,
+        BlockedOffsets::Every => return true,
+        BlockedOffsets::Between { first, last } => (first, last),
+    };
+    let bearing = libm::atan2(at.y, at.x);
+    // The offsets that come about, mirrored to positive ones.
+    let (least, most) = ((bearing.abs() - band).max(0.0), (bearing.abs() + band).min(PI));
+    least < last && (first < most || first == 0.0)
+}
+
+fn meets(finger: &SweptRectangle, core: &Core, rho: f64, turn: f64) -> bool {
+    gap(finger, core, turn) < rho
+}
+
+/// The distance of finger and core once the finger has turned, m; where they overlap minus the least translation that parts them.
+fn gap(finger: &SweptRectangle, core: &Core, turn: f64) -> f64 {
+    let (min, max) = (Vector2::new(finger.inner, -finger.half_width), Vector2::new(finger.outer, finger.half_width));
+    if turn == 0.0 {
+        return core.distance_to_box(min, max);
+    }
+    core.turned(direction(-turn)).distance_to_box(min, max)
+}
+
+/// All turns at which the answer can change, in no order.
+fn cuts(finger: &SweptRectangle, core: &Core, rho: f64) -> Turns {
+    let mut cuts = Turns::new();
+    for vertex in core.vertices() {
+        if let BlockedOffsets::Between { first, last } = finger.blocked_offsets(length(*vertex), rho) {
+            let bearing = libm::atan2(vertex.y, vertex.x);
+            cuts.extend([bearing - last, bearing + last]);
+            if first > 0.0 {
+                cuts.extend([bearing - first, bearing + first]);
+            }
+        }
+    }
+    let half = finger.half_width;
+    let corners = [finger.inner, finger.outer].map(|x| (length(Vector2::new(x, half)), libm::atan2(half, x)));
+    for [start, end] in core.edges() {
+        edge_cuts(start, end, rho, corners, &mut cuts);
+    }
+    cuts
+}
+
+/// The turns at which a corner of the finger, at (distance, ± bearing), meets the edge moved outwards by `rho`.
+fn edge_cuts(start: Vector2<f64>, end: Vector2<f64>, rho: f64, corners: [(f64, f64); 2], cuts: &mut Turns) {
+    let along = end - start;
+    let along = along / length(along);
+    let normal = Vector2::new(along.y, -along.x);
+    let offset = normal.dot(&start) + rho;
+    let (from, to) = (along.dot(&start), along.dot(&end));
+    for (away, bearing) in corners {
+        let square = (away - offset) * (away + offset);
+        if square < 0.0 {
+            continue;
+        }
+        for along in [square.sqrt(), -square.sqrt()] {
+            // A little beyond the ends: there a vertex cuts nearby, and one cut too many does no harm.
+            let slack = 1e-9 * (away + 1e-3);
+            if (from - slack..=to + slack).contains(&along) {
+                // Where the corner is then, seen along the normal; the edge's own direction is a quarter turn ahead of it.
+                let towards = libm::atan2(normal.y, normal.x) + libm::atan2(along, offset);
+                cuts.extend([towards - bearing, towards + bearing]);
+            }
+        }
+    }
+}
+
+fn length(v: Vector2<f64>) -> f64 {
+    (v.x * v.x + v.y * v.y).sqrt()
+}
