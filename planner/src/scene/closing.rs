@@ -97,12 +97,16 @@ impl ClosingFinger {
     fn point(&self, v: Vector2<f64>, band: f64, turns: &mut SmallVec<[f64; 16]>) {
         let away = (v.x * v.x + v.y * v.y).sqrt();
         if v.y.abs() <= away * band {
-            turns.push(libm::atan2(v.y, v.x));
+            // Before the axis or behind it.
+            turns.push(libm::atan2(v.y * v.x.signum(), v.x.abs()));
         }
         self.crossings(v, band, turns);
-        // The arc comes into the strip, or the finger's corner lies on the ray through the vertex.
-        for level in [self.half + self.radius, self.half * away / (away + self.radius).max(f64::MIN_POSITIVE)] {
-            levels(v, away, level, band, turns);
+        // The arc comes into the strip, or the finger's corner lies on the line through axis and vertex, beyond it or before it.
+        levels(v, away, self.half + self.radius, band, turns);
+        for beside in [away + self.radius, (away - self.radius).abs()] {
+            if beside > 0.0 {
+                levels(v, away, self.half * away / beside, band, turns);
+            }
         }
     }
 
