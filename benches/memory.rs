@@ -122,7 +122,7 @@ fn plate_among_crumbs() -> SceneDraft {
         x: Some(0.12),
         y: Some(0.12),
         shape: ShapeDraft::disc(0.075),
-        fixed: false,
+        ..ObjectDraft::default()
     };
     draft.objects.push(plate);
     draft.goal = Some(GoalDraft::Target("plate".into()));
@@ -137,6 +137,7 @@ fn plate_to_move() -> SceneDraft {
         y: Some(y),
         shape: ShapeDraft::disc(radius),
         fixed,
+        ..ObjectDraft::default()
     };
     let (cup, plate) = ((3.0, 3.0), (4.035, 3.0));
     let mut objects = vec![
@@ -175,6 +176,7 @@ fn stair() -> SceneDraft {
         y: Some(y),
         shape: ShapeDraft::disc(radius),
         fixed,
+        ..ObjectDraft::default()
     };
     let step = |n: u32| {
         let (x, y) = (0.12 * f64::from(n.div_ceil(2)), 0.12 * f64::from(n / 2));

@@ -136,6 +136,7 @@ impl Generate {
                 OpeningWord::Fit => Opening::Fit,
                 OpeningWord::Full => Opening::Full,
             }),
+            ..GripperDraft::default()
         };
         Recipe {
             objects: self.objects,

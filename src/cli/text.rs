@@ -10,8 +10,8 @@ use crate::render::{fills, goal, headline};
 use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
-use singulate_planner::scene::{Pose, Scene};
-use singulate_planner::statement::{PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use singulate_planner::scene::Scene;
+use singulate_planner::statement::{PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
 
 /// The most ids in one sentence.
 const MANY: usize = 40;
@@ -128,12 +128,14 @@ fn steps(statement: &Statement) -> String {
     table(&columns, rows)
 }
 
-fn point(pose: Pose) -> String {
-    format!("{:.3}, {:.3}", pose.at.x, pose.at.y)
+/// Where an object stands, and how it is turned if that matters.
+fn point(StatedPose { at, yaw }: StatedPose) -> String {
+    let turned = yaw.map(|yaw| format!(", {:.1}°", yaw.to_degrees())).unwrap_or_default();
+    format!("{:.3}, {:.3}{turned}", at.x, at.y)
 }
 
 /// The yaw, and how far it may be off to either side.
-fn yaw(StatedGrasp { yaw, slack }: StatedGrasp) -> String {
+fn yaw(StatedGrasp { yaw, slack, .. }: StatedGrasp) -> String {
     let slack = slack.map(|slack| format!(" ±{:.1}°", slack.to_degrees())).unwrap_or_default();
     format!("{:.1}°{slack}", yaw.to_degrees())
 }

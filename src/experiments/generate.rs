@@ -39,7 +39,7 @@ fn draft(recipe: &Recipe, discs: &[Disc]) -> SceneDraft {
         x: Some(disc.centre.x),
         y: Some(disc.centre.y),
         shape: ShapeDraft::disc(disc.radius),
-        fixed: false,
+        ..ObjectDraft::default()
     };
     let (min, max) = recipe.corners();
     let objects: Vec<ObjectDraft> = discs.iter().enumerate().map(object).collect();
@@ -70,12 +70,12 @@ fn named(recipe: &Recipe, scene: &Scene) -> Result<Vec<ObjectIndex>, GenerateErr
 /// distance is the closer one.
 fn crowd(scene: &Scene, index: ObjectIndex) -> (usize, f64) {
     let footprint = scene.object(index).footprint();
-    let reach = scene.gripper().reach(&footprint);
+    let reach = scene.object(index).reach(scene.gripper());
     let mut gaps: Vec<f64> = scene
         .index()
         .within(footprint.at(), reach)
         .filter(|(other, _)| *other != index)
-        .map(|(_, other)| other.gap(&footprint))
+        .map(|(_, other)| other.gap(footprint))
         .collect();
     // Sums depend on the order of their terms, and the index gives them in no fixed order.
     gaps.sort_unstable_by(f64::total_cmp);
@@ -108,7 +108,7 @@ mod tests {
     fn least_gaps(scene: &Scene) -> impl Iterator<Item = f64> + '_ {
         scene.indices().map(|one| {
             let others = scene.indices().filter(move |&other| other != one);
-            let gap = |other| scene.object(one).footprint().gap(&scene.object(other).footprint());
+            let gap = |other| scene.object(one).footprint().gap(scene.object(other).footprint());
             others.map(gap).fold(f64::INFINITY, f64::min)
         })
     }
@@ -158,7 +158,7 @@ mod tests {
         assert_eq!(scene.objects().iter().filter(|object| !object.fixed()).count(), 1);
         let target = scene.object(scene.target().unwrap());
         assert!(!target.fixed());
-        let reach = scene.gripper().corner_distance(&target.footprint());
+        let reach = scene.gripper().corner_distance(target.footprint());
         assert!(scene.index().within(target.footprint().at(), reach).count() > 5);
     }
 
@@ -222,7 +222,7 @@ mod tests {
         let recipe = Recipe { radius: (0.03, 0.07), gripper, ..Recipe::default() };
         for seed in 0..20 {
             let draft = generate(&Recipe { gripper: Recipe::default().gripper, ..recipe.clone() }, seed).unwrap();
-            let fit = draft.objects.iter().filter(|object| object.shape.radius.unwrap() <= 0.05).count();
+            let fit = draft.objects.iter().filter(|object| object.shape.disc_radius().unwrap() <= 0.05).count();
             let scene = scene(&Recipe { wanted: Wanted::AnyOf(fit), ..recipe.clone() }, seed);
             assert_eq!(scene.goal().named().len(), fit);
             let more = generate(&Recipe { wanted: Wanted::AnyOf(fit + 1), ..recipe.clone() }, seed);

@@ -49,7 +49,7 @@ fn drawn(mut draft: SceneDraft, random: &mut ChaCha8Rng) -> SceneDraft {
 
 /// A hand as wide as one of the objects, or a little wider.
 fn opened(gripper: GripperDraft, objects: &[ObjectDraft], random: &mut ChaCha8Rng) -> GripperDraft {
-    let radius = objects[pick(objects.len(), random)].shape.radius.unwrap_or_default();
+    let radius = objects[pick(objects.len(), random)].shape.disc_radius().unwrap_or(0.05);
     let max_opening = 2.0 * radius * if chance(random, 0.5) { 1.0 } else { 1.2 };
     let opening = chance(random, 0.5).then_some(if chance(random, 0.5) { Opening::Full } else { Opening::Fit });
     GripperDraft { max_opening: Some(max_opening), opening, ..gripper }

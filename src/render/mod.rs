@@ -3,12 +3,14 @@
 //! It loads nothing: no fonts, no style sheets, no scripts. Ids are escaped as text, never mark-up.
 
 mod fill;
+mod hand;
 mod headline;
 mod label;
 mod legend;
 mod lines;
 mod moves;
 mod objects;
+mod outline;
 mod paint;
 mod phrases;
 mod roles;

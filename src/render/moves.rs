@@ -3,12 +3,14 @@
 use std::collections::HashMap;
 
 use nalgebra::Point2;
-use svg::node::element::{Circle, Group, Line, Polygon, Title};
+use svg::node::element::{Group, Line, Polygon, Title};
 
 use super::fill::{drop_off, drops};
+use super::hand::fingers;
 use super::label;
 use super::objects::{named, outline};
-use super::paint::{self, Paint, Sign, filled, fingers, px, ring};
+use super::outline::{Outline, body, filled};
+use super::paint::{self, Paint, Sign, px, ring};
 use super::roles::{Mark, Roles};
 use super::view::View;
 use singulate_planner::scene::{Footprint, Object, Pose, Scene, distance};
@@ -58,7 +60,14 @@ pub(super) fn moves<'a>(stated: &'a Statement, roles: &Roles<'a>) -> Vec<Move<'a
         };
         let followed = drop_off(step).is_none() || dropped <= MOST_FOLLOWED;
         let wanted = roles.marked(object.id()) == Mark::Wanted;
-        Some(Move { number: at + 1, object, from: from.unwrap_or(object.footprint().pose), step, wanted, followed })
+        Some(Move {
+            number: at + 1,
+            object,
+            from: from.map_or(object.footprint().pose(), Pose::from),
+            step,
+            wanted,
+            followed,
+        })
     });
     steps.collect()
 }
@@ -81,7 +90,7 @@ pub(super) fn signs(stated: &Statement) -> Vec<(Sign, &'static str)> {
 
 /// The open fingers at the target.
 pub(super) fn target_grasp(scene: &Scene, target: &Object, grasp: StatedGrasp, view: &View) -> Group {
-    fingers(&target.footprint(), grasp.yaw, scene.gripper(), view, paint::TARGET_GRASP)
+    fingers(target, target.footprint(), grasp, (scene.gripper(), view), paint::TARGET_GRASP)
         .set("class", "fingers target-grasp")
 }
 
@@ -90,9 +99,9 @@ pub(super) fn needed(ids: &[String], roles: &Roles<'_>, view: &View) -> Group {
     let objects = ids.iter().enumerate().filter_map(|(at, id)| Some((at + 1, roles.object(id)?)));
     objects.fold(Group::new(), |group, (number, object)| {
         let footprint = object.footprint();
-        let radius = view.length(footprint.circumradius());
+        let radius = body(footprint, view);
         let corner = view.point(footprint.at()) + nalgebra::Vector2::new(-0.7 * radius, -0.7 * radius);
-        group.add(badge(number, corner, paint::NEEDED, badge_radius(&footprint, view)))
+        group.add(badge(number, corner, paint::NEEDED, badge_radius(footprint, view)))
     })
 }
 
@@ -115,17 +124,17 @@ fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
             Step::PickPlace(step) => step.grasp,
             Step::PickDrop(step) => step.grasp,
         };
-        group = group.add(fingers(&old, grasp.yaw, scene.gripper(), view, paint::GRASP));
+        group = group.add(fingers(step.object, &old, grasp, (scene.gripper(), view), paint::GRASP));
     }
     match step.step {
         Step::PickDrop(_) => named(group, step.object.id(), &old, paint, view),
         Step::PickPlace(place) => {
-            let new = old.moved_to(place.to);
+            let new = old.moved_to(place.to.into());
             let group = group.add(set_down(&new, again, view)).add(fingers(
+                step.object,
                 &new,
-                place.release.yaw,
-                scene.gripper(),
-                view,
+                place.release,
+                (scene.gripper(), view),
                 paint::RELEASE,
             ));
             let group = named(group, step.object.id(), &old, paint, view);
@@ -135,7 +144,7 @@ fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
 }
 
 /// The object at a new place, dashed if it leaves it again.
-fn set_down(new: &Footprint, again: bool, view: &View) -> Circle {
+fn set_down(new: &Footprint, again: bool, view: &View) -> Outline {
     let place = filled(new, view, paint::MOVED).set("stroke-width", px(1.5 * outline(new, view)));
     if again { place.set("fill-opacity", "0.4").set("stroke-dasharray", "5 3") } else { place }
 }
@@ -143,9 +152,9 @@ fn set_down(new: &Footprint, again: bool, view: &View) -> Circle {
 /// The arrow to the new place, and the step's number at both ends; `None` for a step off the table.
 fn route(Move { number, object, from, step, .. }: &Move<'_>, view: &View) -> Option<Group> {
     let (number, footprint, to) = (*number, object.footprint(), step.pick_place()?.to);
-    let radius = view.length(footprint.circumradius());
+    let radius = body(footprint, view);
     let (from, to) = (view.point(from.at), view.point(to.at));
-    let size = badge_radius(&footprint, view);
+    let size = badge_radius(footprint, view);
     let badge = badge(number, to + nalgebra::Vector2::new(-0.75 * radius, -0.75 * radius), paint::MOVED, size);
     let group = Group::new().set("class", "route");
     let length = distance(from, to);

@@ -3,7 +3,8 @@
 use svg::node::element::{Group, Rectangle as Rect, Title};
 
 use super::label::{self, LARGEST_SIZE};
-use super::paint::{self, Paint, contour, filled, px};
+use super::outline::{Outline, body, contour, filled};
+use super::paint::{self, Paint, px};
 use super::roles::{Mark, Role, Roles};
 use super::stays::Stays;
 use super::view::View;
@@ -37,7 +38,7 @@ pub(super) fn standing(scene: &Scene, roles: &Roles<'_>, view: &View) -> Group {
 fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Group {
     let (object, mark) = (scene.object(index), roles.mark(index));
     let (name, paint) = look(roles.of(index), mark);
-    let (footprint, stroke) = (object.footprint(), outline(&object.footprint(), view));
+    let (footprint, stroke) = (object.footprint(), outline(object.footprint(), view));
     let class = match mark {
         Mark::Wanted => format!("{name} target"),
         Mark::Candidate => format!("{name} candidate"),
@@ -45,18 +46,18 @@ fn one(scene: &Scene, index: ObjectIndex, roles: &Roles<'_>, view: &View) -> Gro
     };
     let mut group =
         Group::new().set("class", class).add(Title::new(label::clean(&title(object.id(), roles.of(index))))).add(
-            filled(&footprint, view, paint)
+            filled(footprint, view, paint)
                 .set("stroke-width", px(if mark == Mark::Wanted { 2.5 * stroke } else { stroke })),
         );
     if mark == Mark::Wanted {
         // Gold on red, so that the target stands out within a lock too.
         let line = if paint == paint::TARGET { paint.line } else { paint::TARGET.fill };
-        group = group.add(inner_ring(&footprint, 0.88, view, line));
+        group = group.add(inner_ring(footprint, 0.88, view, line));
     }
     if let Some(why) = roles.immovable(index) {
-        group = group.add(inner_ring(&footprint, 0.84, view, ring_colour(why, paint)));
+        group = group.add(inner_ring(footprint, 0.84, view, ring_colour(why, paint)));
     }
-    named(group, object.id(), &footprint, paint, view)
+    named(group, object.id(), footprint, paint, view)
 }
 
 /// The class and the colours of an object that is not moved.
@@ -94,7 +95,7 @@ fn title(id: &str, role: Role) -> String {
 }
 
 /// The second ring of a fixed object and of the target.
-fn inner_ring(footprint: &Footprint, share: f64, view: &View, line: &str) -> svg::node::element::Circle {
+fn inner_ring(footprint: &Footprint, share: f64, view: &View, line: &str) -> Outline {
     contour(footprint, share, view, line).set("stroke-width", px(outline(footprint, view)))
 }
 
@@ -103,14 +104,20 @@ pub(super) fn outline(footprint: &Footprint, view: &View) -> f64 {
     (view.length(footprint.circumradius()) * 0.06).min(1.5)
 }
 
+/// The size of letters across an object that is thinner than they are, px.
+const NAMED_ACROSS: f64 = 9.0;
+
 /// Write the id into the object if it is readable.
 pub(super) fn named(group: Group, id: &str, footprint: &Footprint, paint: Paint, view: &View) -> Group {
     let radius = view.length(footprint.circumradius());
-    let Some((text, size)) = label::fit(id, (0.8 * radius).min(LARGEST_SIZE), 1.6 * radius) else { return group };
+    let disc = footprint.core().is_none();
+    // Across a thin object the letters stand out on both sides.
+    let size = if disc { 0.8 * radius } else { (0.8 * body(footprint, view)).max(NAMED_ACROSS.min(0.8 * radius)) };
+    let Some((text, size)) = label::fit(id, size.min(LARGEST_SIZE), 1.6 * radius) else { return group };
     let ink = if paint == paint::CORE { paint::PAPER } else { paint::INK };
     let text = label::centred(&text, size, view.point(footprint.at())).set("fill", ink);
     // A halo separates the letters from the hatching.
-    let halo = [paint::FIXED, paint::TOO_WIDE, paint::NOT_ACCEPTED].contains(&paint);
+    let halo = !disc || [paint::FIXED, paint::TOO_WIDE, paint::NOT_ACCEPTED].contains(&paint);
     group.add(if halo {
         text.set("stroke", paint::PAPER).set("stroke-width", px(size / 4.0)).set("paint-order", "stroke")
     } else {

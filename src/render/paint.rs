@@ -1,12 +1,7 @@
 //! The colours and basic shapes.
 
-use core::f64::consts::TAU;
-
 use nalgebra::Point2;
-use svg::node::element::{Circle, Group, Polygon};
-
-use super::view::View;
-use singulate_planner::scene::{Footprint, Gripper, Shape};
+use svg::node::element::Circle;
 
 pub(super) const PAPER: &str = "#ffffff";
 pub(super) const INK: &str = "#202124";
@@ -73,18 +68,6 @@ pub(super) fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A filled footprint.
-pub(super) fn filled(footprint: &Footprint, view: &View, paint: Paint) -> Circle {
-    contour(footprint, 1.0, view, paint.line).set("fill", paint.fill)
-}
-
-/// The outline of a footprint at `share` of its size.
-pub(super) fn contour(footprint: &Footprint, share: f64, view: &View, line: &str) -> Circle {
-    match footprint.shape {
-        Shape::Disc { radius } => ring(view.point(footprint.at()), view.length(radius) * share, line),
-    }
-}
-
 /// An outline without a fill, px.
 pub(super) fn ring(centre: Point2<f64>, radius: f64, line: &str) -> Circle {
     Circle::new()
@@ -98,34 +81,4 @@ pub(super) fn ring(centre: Point2<f64>, radius: f64, line: &str) -> Circle {
 /// Corner points as the `points` of a polygon.
 pub(super) fn points(corners: impl IntoIterator<Item = Point2<f64>>) -> String {
     corners.into_iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
-}
-
-/// The k open fingers round `grasped` at `yaw`, and all that they cover while they close: rectangles from the object's
-/// edge to the fingers' outer edge, w wide, turned. Finger 0 has a dot.
-pub(super) fn fingers(grasped: &Footprint, yaw: f64, gripper: &Gripper, view: &View, paint: Paint) -> Group {
-    let (Shape::Disc { radius: inner }, centre) = (grasped.shape, grasped.at());
-    let outer = gripper.outer_distance(grasped);
-    let half = gripper.finger_width() / 2.0;
-    let mut group = Group::new()
-        .set("class", "fingers")
-        .set("fill", paint.fill)
-        .set("fill-opacity", "0.55")
-        .set("stroke", paint.line)
-        .set("stroke-width", "1");
-    for finger in 0..gripper.fingers() {
-        let angle = yaw + TAU * f64::from(finger) / f64::from(gripper.fingers());
-        let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-        let at = |along: f64, across: f64| {
-            let (x, y) = (along * cos - across * sin, along * sin + across * cos);
-            view.point(Point2::new(centre.x + x, centre.y + y))
-        };
-        let corners = [at(inner, -half), at(outer, -half), at(outer, half), at(inner, half)];
-        group = group.add(Polygon::new().set("points", points(corners)));
-        if finger == 0 {
-            let dot = view.length(half.min(gripper.clearance() / 2.0)) * 0.45;
-            let dot = ring(at((inner + outer) / 2.0, 0.0), dot, "none").set("fill", paint.line);
-            group = group.add(dot.set("fill-opacity", "1"));
-        }
-    }
-    group
 }

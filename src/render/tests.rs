@@ -32,6 +32,7 @@ fn scene(ids: &[&str]) -> Scene {
         y: Some(0.2 + 0.2 * (at / 100) as f64),
         shape: ShapeDraft::disc(0.08),
         fixed: at > 0 && at + 1 == ids.len(),
+        ..ObjectDraft::default()
     };
     let draft = SceneDraft {
         table: TableDraft { top: rectangle(0.0, 0.0, 21.0, 21.0), keep_out: vec![rectangle(0.0, 0.0, 0.1, 0.1)] },
@@ -52,7 +53,7 @@ fn ids(scene: &Scene, positions: &[usize]) -> Vec<String> {
 }
 
 fn graspable(slack: f64) -> Judged {
-    let target_grasp = Some(StatedGrasp { yaw: 0.0, slack: Some(slack) });
+    let target_grasp = Some(StatedGrasp { at: None, yaw: 0.0, slack: Some(slack) });
     answer(Statement { verdict: Some(Verdict::Graspable), target_grasp, ..Statement::timed_out() })
 }
 
@@ -62,7 +63,7 @@ fn locked(scene: &Scene, blocked: &[usize], core: &[usize]) -> Judged {
 }
 
 fn relocate(scene: &Scene, moved: &[usize]) -> Judged {
-    let grasp = StatedGrasp { yaw: 0.5, slack: Some(0.1) };
+    let grasp = StatedGrasp { at: None, yaw: 0.5, slack: Some(0.1) };
     let step = |object: &usize| {
         let object = &scene.objects()[*object];
         let from = object.footprint().at();
@@ -72,6 +73,7 @@ fn relocate(scene: &Scene, moved: &[usize]) -> Judged {
             to: Point2::new(from.x, 1.0).into(),
             grasp,
             release: grasp,
+            turn: None,
             gap: Some(0.01),
         })
     };
@@ -220,7 +222,7 @@ fn a_tiny_or_a_lopsided_table_gives_finite_numbers() {
                 x: Some(0.0),
                 y: Some(0.0),
                 shape: ShapeDraft::disc(1e3),
-                fixed: false,
+                ..ObjectDraft::default()
             }],
             goal: Some(GoalDraft::Target("t".to_owned())),
             ..SceneDraft::default()

@@ -3,7 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::roles::Roles;
-use singulate_planner::scene::{Footprint, Object, Scene};
+use singulate_planner::scene::{Grasps, Object, Scene};
 use singulate_planner::statement::Statement;
 
 /// Padding on all sides, px.
@@ -86,15 +86,19 @@ fn drawn<'a>(
     stated: &'a Statement,
     roles: &'a Roles<'a>,
 ) -> impl Iterator<Item = [Point2<f64>; 2]> + 'a {
-    let reach = |footprint: Footprint| {
-        let corner = Vector2::repeat(scene.gripper().corner_distance(&footprint));
-        [footprint.at() - corner, footprint.at() + corner]
+    let gripper = scene.gripper();
+    let reach = move |object: &Object, at: Point2<f64>| {
+        let hand = match (object.grasps(), gripper.palm()) {
+            (Grasps::EveryYaw, None) => gripper.corner_distance(object.footprint()),
+            _ => object.reach(gripper).max(object.footprint().circumradius()),
+        };
+        [at - Vector2::repeat(hand), at + Vector2::repeat(hand)]
     };
     let moved = stated.steps().iter().flat_map(move |step| {
-        let object = roles.object(step.object()).map(Object::footprint);
-        object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object.moved_to(pose))))
+        let object = roles.object(step.object());
+        object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object, pose.at)))
     });
     let grasped = stated.target_grasp.and_then(|_| roles.grasped());
-    let target = grasped.map(|object| reach(object.footprint()));
+    let target = grasped.map(move |object| reach(object, object.footprint().at()));
     scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
 }

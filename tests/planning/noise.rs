@@ -56,7 +56,7 @@ fn answered(request: &PlanRequest, named: &str) -> Statement {
 /// Carries the steps out with nothing but distances: each object comes to stand the margin away from all others, so that no
 /// pair overlaps deeper than it did.
 fn keeps_apart(scene: &Scene, steps: &[Step], named: &str) {
-    let mut discs: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint()).collect();
+    let mut discs: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint().clone()).collect();
     for step in steps.iter().filter_map(Step::pick_place) {
         let at = scene.find(&step.object).unwrap().get();
         assert_eq!(Some(discs[at].pose), step.from, "{named}");

@@ -191,7 +191,7 @@ fn the_histogram_blocks_a_sector_exactly_where_a_sector_shadow_covers_it() {
             for (z, magnitude) in g.iter().enumerate() {
                 let yaw = f64::from(u32::try_from(z).unwrap()).to_radians();
                 let covers = |other: &ObjectIndex| {
-                    let shadow = Sector.shadow(gripper, &grasped, &scene.object(*other).footprint(), 0.0);
+                    let shadow = Sector.sector(gripper, grasped, scene.object(*other).footprint(), 0.0);
                     shadow.arcs().iter().any(|arc| arc.lo <= yaw && yaw <= arc.hi)
                 };
                 assert_eq!(*magnitude > 0.0, others.iter().any(covers), "{object:?} {z}");

@@ -16,7 +16,7 @@ use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verd
 use crate::check::scenes::{Builder, codes, judge};
 
 fn stated(scene: &Scene, arrangement: &Arrangement) -> Statement {
-    let grasp = |grasp: Grasp| StatedGrasp { yaw: grasp.yaw, slack: Some(grasp.slack) };
+    let grasp = |grasp: Grasp| StatedGrasp { at: None, yaw: grasp.yaw, slack: Some(grasp.slack) };
     let step = |step: &Move| {
         let Move::Place(step) = step else { unreachable!("the paper knows no drop-offs") };
         Step::PickPlace(PickPlace {

@@ -141,6 +141,7 @@ fn beside_a_fixed_plate(fingers: u32) -> SceneDraft {
         y: Some(0.35),
         shape: ShapeDraft::disc(0.075),
         fixed,
+        ..ObjectDraft::default()
     };
     draft.objects = vec![plate("wanted", 0.5, false), plate("plate", 0.65, true)];
     draft.goal = Some(GoalDraft::Target("wanted".into()));

@@ -31,7 +31,7 @@ fn row(width: f64, margin: f64) -> SceneDraft {
         x: Some(x),
         y: Some(width / 2.0),
         shape: ShapeDraft::disc(0.04),
-        fixed: false,
+        ..ObjectDraft::default()
     };
     let apart = 0.08 + margin.max(0.01);
     draft.objects = [("left", 0.5 - apart), ("middle", 0.5), ("right", 0.5 + apart)].map(disc).into();
@@ -90,7 +90,14 @@ fn stair(steps: u32) -> SceneDraft {
     (draft.gripper.finger_width, draft.gripper.clearance) = (Some(0.06), Some(0.03));
     let mut objects = Vec::new();
     let mut disc = |id: String, x: f64, y: f64, radius: f64, fixed: bool| {
-        objects.push(ObjectDraft { id: Some(id), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed });
+        objects.push(ObjectDraft {
+            id: Some(id),
+            x: Some(x),
+            y: Some(y),
+            shape: ShapeDraft::disc(radius),
+            fixed,
+            ..ObjectDraft::default()
+        });
     };
     for step in 0..steps {
         let (x, y) = (pitch * f64::from(step.div_ceil(2)), pitch * f64::from(step / 2));
@@ -117,7 +124,7 @@ fn a_long_plan_on_a_wide_table_is_found() {
 /// Does the disc keep the 5 mm that the planner keeps where it can?
 fn keeps_preferred_gap(scene: &Scene, object: ObjectIndex, footprint: &Footprint) -> bool {
     let gap = 0.005;
-    let apart = |other: ObjectIndex| footprint.gap(&scene.object(other).footprint()) >= gap + scene.gripper().margin();
+    let apart = |other: ObjectIndex| footprint.gap(scene.object(other).footprint()) >= gap + scene.gripper().margin();
     scene.indices().filter(|&other| other != object).all(apart)
         && footprint.gap_inside(&scene.table().top()) >= gap
         && scene.table().keep_out().iter().all(|area| footprint.gap_outside(area) >= gap)

@@ -13,14 +13,6 @@ fn rectangle([x_min, y_min, x_max, y_max]: [f64; 4]) -> RectangleDraft {
     RectangleDraft { x_min: Some(x_min), y_min: Some(y_min), x_max: Some(x_max), y_max: Some(y_max) }
 }
 
-/// The radius of a disc.
-fn radius_of(object: &ObjectDraft) -> f64 {
-    match object.shape {
-        ShapeDraft::Radius(radius) => radius.unwrap_or_default(),
-        _ => 0.0,
-    }
-}
-
 impl TestScene {
     pub(crate) fn new(fingers: u32) -> Self {
         let gripper = GripperDraft {
@@ -109,7 +101,7 @@ impl TestScene {
         for (at, &(x, y, radius)) in discs.iter().enumerate() {
             let apart = |other: &ObjectDraft| {
                 let (dx, dy) = (other.x.unwrap_or_default() - x, other.y.unwrap_or_default() - y);
-                (dx * dx + dy * dy).sqrt() - radius_of(other) - radius
+                (dx * dx + dy * dy).sqrt() - other.shape.disc_radius().unwrap_or_default() - radius
             };
             if self.0.objects.iter().all(|other| apart(other) >= 0.0) {
                 self = self.disc(&format!("d{at}"), x, y, radius);

@@ -52,6 +52,14 @@ impl ShapeDraft {
         Self::Radius(Some(radius))
     }
 
+    /// The radius of a disc in either form, m.
+    pub fn disc_radius(&self) -> Option<f64> {
+        match self {
+            Self::Radius(radius) | Self::Disc { radius } => *radius,
+            _ => None,
+        }
+    }
+
     /// True for either form of a disc.
     pub(super) fn is_disc(&self) -> bool {
         matches!(self, Self::Radius(_) | Self::Disc { .. })

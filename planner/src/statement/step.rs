@@ -66,6 +66,13 @@ pub struct StatedGrasp {
     pub slack: Option<f64>,
 }
 
+/// Of a disc that may be grasped at every yaw.
+impl From<Point2<f64>> for StatedPose {
+    fn from(at: Point2<f64>) -> Self {
+        Self { at, yaw: None }
+    }
+}
+
 impl From<Pose> for StatedPose {
     fn from(pose: Pose) -> Self {
         Self { at: pose.at, yaw: Some(pose.yaw) }

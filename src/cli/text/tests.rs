@@ -30,7 +30,7 @@ fn text(statement: Statement) -> String {
     answer(&request(), &Answer { statement, statistics }.into())
 }
 
-const GRASP: StatedGrasp = StatedGrasp { yaw: 0.5, slack: Some(0.1) };
+const GRASP: StatedGrasp = StatedGrasp { at: None, yaw: 0.5, slack: Some(0.1) };
 const TIMES: &str = "0.04 ms in all: knowledge 0.04 ms, search 0.00 ms, placement 0.00 ms, check 0.00 ms\n";
 
 fn plan(bound: u64, landmarks: &[&[usize]]) -> Statement {
@@ -39,10 +39,11 @@ fn plan(bound: u64, landmarks: &[&[usize]]) -> Statement {
         let object = &request.scene.objects()[object];
         Step::PickPlace(PickPlace {
             object: object.id().to_owned(),
-            from: Some(object.footprint().pose),
+            from: Some(object.footprint().at().into()),
             to: Point2::new(1.5, 0.25).into(),
             grasp: GRASP,
             release: GRASP,
+            turn: None,
             gap: Some(0.0312),
         })
     };

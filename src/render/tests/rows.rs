@@ -16,6 +16,7 @@ pub(super) fn row(radii: &[(&str, f64)], goal: GoalDraft, drop_offs: &[DropOff<'
         y: Some(0.3),
         shape: ShapeDraft::disc(*radius),
         fixed: id.starts_with("fixed"),
+        ..ObjectDraft::default()
     };
     let accepts = |ids: &[&str]| ids.iter().map(|id| Some((*id).to_owned())).collect();
     let drop_off = |(id, capacity, accepted): &DropOff<'_>| DropOffDraft {
@@ -37,23 +38,24 @@ pub(super) fn sound(draft: SceneDraft) -> Scene {
     Scene::new(draft, &SceneLimits::default()).unwrap().0
 }
 
-pub(super) const GRASP: StatedGrasp = StatedGrasp { yaw: 0.0, slack: Some(0.1) };
+pub(super) const GRASP: StatedGrasp = StatedGrasp { at: None, yaw: 0.0, slack: Some(0.1) };
 
 pub(super) fn dropped(scene: &Scene, object: usize, drop_off: &str) -> Step {
     let object = &scene.objects()[object];
-    let (object, from) = (object.id().to_owned(), Some(object.footprint().pose));
+    let (object, from) = (object.id().to_owned(), Some(object.footprint().at().into()));
     Step::PickDrop(PickDrop { object, from, grasp: GRASP, drop_off: drop_off.to_owned() })
 }
 
 pub(super) fn placed(scene: &Scene, object: usize) -> Step {
     let object = &scene.objects()[object];
-    let from = object.footprint().pose;
+    let from = object.footprint().at();
     Step::PickPlace(PickPlace {
         object: object.id().to_owned(),
-        from: Some(from),
-        to: Point2::new(from.at.x, 0.8).into(),
+        from: Some(from.into()),
+        to: Point2::new(from.x, 0.8).into(),
         grasp: GRASP,
         release: GRASP,
+        turn: None,
         gap: Some(0.1),
     })
 }

@@ -286,7 +286,7 @@ fn a_hand_that_always_opens_all_the_way_meets_more() {
     let table = || Builder::new(2).disc("cup", 1.0, 1.0, 0.05).disc("can", 1.22, 1.0, 0.05);
     let along_x = Statement {
         verdict: Some(Verdict::Graspable),
-        target_grasp: Some(StatedGrasp { yaw: 0.0, slack: None }),
+        target_grasp: Some(StatedGrasp { at: None, yaw: 0.0, slack: None }),
         ..Statement::default()
     };
     caught(&table().opening(0.3, Opening::Fit).build("cup"), &along_x, &[]);

@@ -108,7 +108,7 @@ fn a_pile_of_steps_ends_with_the_budget() {
     let inner: Vec<String> = scene.objects().iter().filter(|object| !object.fixed()).map(|o| o.id().into()).collect();
     // Everything is put on one heap, again and again.
     let steps = (0..10_000).map(|n| step(&inner[1 + n % (inner.len() - 1)], [60.0, 60.0], 0.0, 0.0)).collect();
-    let target_grasp = Some(StatedGrasp { yaw: 0.0, slack: None });
+    let target_grasp = Some(StatedGrasp { at: None, yaw: 0.0, slack: None });
     let stated = Statement { relocations: Some(steps), target_grasp, ..Statement::default() };
     let report = check(&scene, &stated, &Budget::new(&Ticking::default(), Duration::from_millis(50)));
     assert!(report.interrupted);
@@ -123,7 +123,7 @@ fn stated_gaps_end_with_the_budget_too() {
     let report = |gap: Option<f64>| {
         let mut stated = Statement {
             relocations: Some((0..1_200).map(|n| step("cup", place(n), 0.0, 0.0)).collect()),
-            target_grasp: Some(StatedGrasp { yaw: 0.0, slack: None }),
+            target_grasp: Some(StatedGrasp { at: None, yaw: 0.0, slack: None }),
             ..Statement::default()
         };
         for n in 0..1_200 {

@@ -9,7 +9,7 @@ use singulate_planner::statement::{StatedGrasp, Statement, Step, Verdict};
 use super::scenes::*;
 
 fn just_grasp(yaw: f64, slack: Option<f64>) -> Statement {
-    let target_grasp = Some(StatedGrasp { yaw, slack });
+    let target_grasp = Some(StatedGrasp { at: None, yaw, slack });
     Statement { target_grasp, ..Statement::default() }
 }
 

@@ -53,8 +53,13 @@ impl Builder {
     }
 
     pub(crate) fn disc(mut self, id: &str, x: f64, y: f64, radius: f64) -> Self {
-        let object =
-            ObjectDraft { id: Some(id.into()), x: Some(x), y: Some(y), shape: ShapeDraft::disc(radius), fixed: false };
+        let object = ObjectDraft {
+            id: Some(id.into()),
+            x: Some(x),
+            y: Some(y),
+            shape: ShapeDraft::disc(radius),
+            ..ObjectDraft::default()
+        };
         self.0.objects.push(object);
         self
     }
@@ -111,7 +116,7 @@ impl Builder {
 }
 
 pub(crate) fn grasp(yaw: f64, slack: f64) -> StatedGrasp {
-    StatedGrasp { yaw, slack: Some(slack) }
+    StatedGrasp { at: None, yaw, slack: Some(slack) }
 }
 
 /// A step that states nothing it need not.
@@ -124,8 +129,8 @@ fn pick_place(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> P
         object: object.into(),
         from: None,
         to: Point2::new(to[0], to[1]).into(),
-        grasp: StatedGrasp { yaw: grasp_yaw, slack: None },
-        release: StatedGrasp { yaw: release_yaw, slack: None },
+        grasp: StatedGrasp { at: None, yaw: grasp_yaw, slack: None },
+        release: StatedGrasp { at: None, yaw: release_yaw, slack: None },
         gap: None,
     }
 }

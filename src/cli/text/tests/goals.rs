@@ -26,13 +26,14 @@ fn text(request: &PlanRequest, statement: Statement) -> String {
 }
 
 fn placed(id: &str) -> Step {
-    let pose = |y| Pose::from(Point2::new(0.2, y));
+    let pose = |y| StatedPose::from(Point2::new(0.2, y));
     Step::PickPlace(PickPlace {
         object: id.to_owned(),
         from: Some(pose(0.5)),
         to: pose(0.9),
         grasp: GRASP,
         release: GRASP,
+        turn: None,
         gap: Some(0.01),
     })
 }
