@@ -32,7 +32,8 @@ pub struct AnswerBody<'a> {
     /// The plan, in order of execution. Empty if there is no plan or no relocation is needed.
     #[schema(example = json!([{
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
-        "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
+        "grasp": {"x": 0.4, "y": 0.2, "yaw": 0.31, "slack": 0.12},
+        "release": {"x": 1.1, "y": 0.6, "yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
     pub relocations: Vec<StepBody<'a>>,
     /// The grasp of the target after all relocations. Null if there is no plan, and for `all_of` and `clear`.

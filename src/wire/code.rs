@@ -46,7 +46,8 @@ pub enum ErrorCode {
     HangsOverTable,
     /// A yaw tolerance with which any obstacle in reach blocks every yaw; degrees for radians? Only ever a warning.
     WideYawTolerance,
-    /// A length that does not go with the rest of the scene; millimetres for metres? Only ever a warning.
+    /// A length that does not go with the rest of the scene, or a yaw of more than a turn; millimetres for metres, degrees for
+    /// radians? Only ever a warning.
     OutOfProportion,
     /// The target, or another object that is wanted, is no object of the scene.
     UnknownTarget,
@@ -54,13 +55,27 @@ pub enum ErrorCode {
     FixedTarget,
     /// An object that is wanted, or taken away, is wider than the hand opens. As the goal a fault, elsewhere only a warning.
     TooWide,
+    /// An object that is wanted, or taken away, has no grasp that the hand can do. As the goal a fault, elsewhere only a warning.
+    NoGrasp,
+    /// A polygon that is not convex is planned as its hull. Only ever a warning.
+    ConvexHull,
+    /// The points of a polygon are fewer than three, or on one line.
+    NoArea,
+    /// More points than a polygon may have.
+    TooManyPoints,
+    /// More grasps than an object may have.
+    TooManyGrasps,
+    /// Objects are grasped as their shapes suggest, since none of their grasps are stated. Only ever a warning.
+    DefaultGrasps,
+    /// Objects without a height, where a palm is described. Only ever a warning.
+    UnknownHeight,
     /// No drop-off accepts an object that is to be taken away.
     NotAccepted,
     /// A list of ids without an id.
     EmptyList,
     /// Fields that exclude each other.
     ConflictingFields,
-    /// The paper's methods know no such field.
+    /// The paper's methods know no such field: they know only discs.
     DiscsOnly,
     /// What a drop-off accepts is no object of the scene. Only ever a warning.
     UnknownObject,

@@ -14,8 +14,8 @@ const GOAL: FieldNames = FieldNames::of(&["any_of", "all_of", "clear"]);
 #[serde(deny_unknown_fields)]
 #[schema(min_properties = 1, max_properties = 1, example = json!({"any_of": ["plate-1", "plate-2"]}))]
 pub struct GoalBody {
-    /// The ids of objects of which one is to be grasped: the one that takes the fewest steps. Those that are too wide are passed
-    /// over.
+    /// The ids of objects of which one is to be grasped: the one that takes the fewest steps. Those that are too wide, or
+    /// have no grasp, are passed over.
     #[schema(value_type = Vec<String>, required = false, min_items = 1, max_items = 10000,
         example = json!(["plate-1", "plate-2"]))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -5,8 +5,8 @@ use core::iter;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use singulate_planner::geometry::Arc;
-use singulate_planner::knowledge::ObjectKnowledge;
+use singulate_planner::geometry::{Arc, Shadow};
+use singulate_planner::knowledge::{KnownGrasp, ObjectKnowledge};
 use singulate_planner::paper::PolarHistogram;
 use singulate_planner::scene::{MIN_FREE_WIDTH, ObjectIndex, Scene};
 
@@ -31,12 +31,18 @@ pub struct KnownObject {
     /// empty option means that it can be grasped now. An object without options can never be moved.
     #[schema(example = json!([["plate-2"], ["plate-5", "plate-7"]]))]
     pub options: Vec<Vec<String>>,
-    /// The yaws that each option frees: intervals within [0, 2π/k], rad. An interval across 0 is given as two.
+    /// The yaws that each option frees: intervals within [0, 2π/k], rad. An interval across 0 is given as two. Empty for an object
+    /// with listed grasps.
     #[schema(example = json!([[[0.31, 0.55]], [[1.7, 1.71]]]))]
     pub option_yaws: Vec<Vec<[f64; 2]>>,
-    /// The obstacles that block this object at some yaw.
+    /// The obstacles that block this object at some yaw. Empty for an object with listed grasps.
     #[schema(example = json!([{"obstacle": "plate-2", "intervals": [[0.0, 0.42], [1.9, 2.0943951]]}]))]
     pub shadows: Vec<ShadowBody>,
+    /// Only there for an object with listed grasps, or with those that go with its shape: the ones that the hand can do.
+    #[schema(value_type = Vec<KnownGraspBody>, required = false,
+        example = json!([{"x": 0.4, "y": 0.2, "yaw": 1.8708, "blockers": ["plate-2"]}]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grasps: Option<Vec<KnownGraspBody>>,
     /// The paper's polar histogram. Null unless `grasp_model` is `sector`.
     #[schema(required = true)]
     pub histogram: Option<HistogramBody>,
@@ -51,6 +57,23 @@ pub struct ShadowBody {
     /// The blocked yaws: intervals within [0, 2π/k], rad. An interval across 0 is given as two.
     #[schema(example = json!([[0.0, 0.42], [1.9, 2.0943951]]))]
     pub intervals: Vec<[f64; 2]>,
+}
+
+/// One grasp of an object as it stands.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct KnownGraspBody {
+    /// The gripper's axis along the table's x, m.
+    #[schema(example = 0.4)]
+    pub x: f64,
+    /// The gripper's axis along the table's y, m.
+    #[schema(example = 0.2)]
+    pub y: f64,
+    /// The direction of finger 0, rad, counter-clockwise from +x, in [0, 2π).
+    #[schema(example = 1.8708)]
+    pub yaw: f64,
+    /// The ids of the obstacles that block it. It is free once all of them are gone.
+    #[schema(example = json!(["plate-2"]))]
+    pub blockers: Vec<String>,
 }
 
 /// The paper's polar histogram round an object, in sectors of one degree. Magnitudes have no unit: at least 1 where
@@ -78,13 +101,22 @@ impl KnowledgeBody {
 impl KnownObject {
     fn new(scene: &Scene, known: &ObjectKnowledge, histogram: Option<&PolarHistogram>) -> Self {
         let id = |object: &ObjectIndex| scene.object(*object).id().to_owned();
-        let shadow = |obstacle, arcs| ShadowBody { obstacle, intervals: intervals(arcs) };
-        let blockers = known.shadows.iter();
+        let listed = known.grasps.is_some();
+        let yaws = |shadow: &Shadow| shadow.yaws().map(|yaws| intervals(yaws.arcs()));
+        let shadows = known.shadows.iter().filter_map(|blocker| {
+            Some(ShadowBody { obstacle: id(&blocker.object), intervals: yaws(&blocker.shadow)? })
+        });
+        let option_yaws = known.options.iter().filter(|_| !listed).map(|option| intervals(&option.free));
+        let grasp = |KnownGrasp { grasp, blockers }: &KnownGrasp| {
+            let blockers = blockers.iter().map(id).collect();
+            KnownGraspBody { x: grasp.axis.x, y: grasp.axis.y, yaw: grasp.yaw, blockers }
+        };
         Self {
             id: id(&known.object),
             options: known.options.iter().map(|option| option.members.iter().map(id).collect()).collect(),
-            option_yaws: known.options.iter().map(|option| intervals(&option.free)).collect(),
-            shadows: blockers.map(|blocker| shadow(id(&blocker.object), blocker.shadow.arcs())).collect(),
+            option_yaws: option_yaws.collect(),
+            shadows: shadows.collect(),
+            grasps: known.grasps.as_ref().map(|grasps| grasps.iter().map(grasp).collect()),
             histogram: histogram.map(HistogramBody::new),
         }
     }

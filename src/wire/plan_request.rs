@@ -11,7 +11,7 @@ use super::reader::RequestFaults;
 use super::settings::StatedSettings;
 use singulate_planner::paper::Methods;
 use singulate_planner::plan::Settings;
-use singulate_planner::scene::{GoalDraft, Scene, SceneDraft, SceneLimits};
+use singulate_planner::scene::{GoalDraft, ObjectDraft, Scene, SceneDraft, SceneLimits, ShapeDraft};
 
 /// A valid request.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub struct PlanRequest {
     pub settings: Settings,
     /// The methods to plan with.
     pub methods: Methods,
-    /// How deep the scene's discs may overlap, m.
+    /// How deep the scene's objects may overlap, m.
     pub overlap_tolerance: f64,
     /// The time limit, queuing included.
     pub time_limit: Duration,
@@ -78,7 +78,7 @@ impl StatedRequest {
         }
     }
 
-    /// Reports each field that the paper's methods can't take into account.
+    /// Reports each field that the paper's methods can't take into account; those of objects at the first that has them.
     fn only_what_the_paper_knows(&self, path: &Path<'_>, faults: &mut RequestFaults) {
         let (draft, gripper, settings) = (&self.draft, path.field("gripper"), path.field("settings"));
         let goal = draft.goal.as_ref().is_some_and(|goal| !matches!(goal, GoalDraft::Target(_)));
@@ -87,14 +87,31 @@ impl StatedRequest {
             (draft.drop_offs.is_some(), path.field("drop_offs")),
             (draft.gripper.max_opening.is_some(), gripper.field("max_opening")),
             (draft.gripper.opening.is_some(), gripper.field("opening")),
+            (draft.gripper.finger_length.is_some(), gripper.field("finger_length")),
+            (draft.gripper.palm_radius.is_some(), gripper.field("palm_radius")),
+            (draft.gripper.tip_height.is_some(), gripper.field("tip_height")),
             (self.settings.destination().is_some(), settings.field("destination")),
         ];
-        for (_, field) in fields.iter().filter(|(stated, _)| *stated) {
-            let detail = format_args!(
-                "the paper's methods know only discs that are moved on the table for one target: leave this out, or \
-                 'grasp_model', 'search' and 'placement'"
-            );
-            faults.add(ErrorCode::DiscsOnly, field, detail);
+        fields.iter().filter(|(stated, _)| *stated).for_each(|(_, field)| discs_only(field, faults));
+        let objects = path.field("objects");
+        let kinds: [(&str, fn(&ObjectDraft) -> bool); 4] = [
+            ("yaw", |object| object.yaw.is_some()),
+            ("shape", |object| !matches!(object.shape, ShapeDraft::Radius(_) | ShapeDraft::Unread)),
+            ("height", |object| object.height.is_some()),
+            ("grasps", |object| object.grasps.is_some()),
+        ];
+        for (name, stated) in kinds {
+            if let Some(first) = draft.objects.iter().position(stated) {
+                discs_only(&objects.item(first).field(name), faults);
+            }
         }
     }
+}
+
+fn discs_only(field: &Path<'_>, faults: &mut RequestFaults) {
+    let detail = format_args!(
+        "the paper's methods know only discs that are moved on the table for one target: leave this out, or \
+         'grasp_model', 'search' and 'placement'"
+    );
+    faults.add(ErrorCode::DiscsOnly, field, detail);
 }

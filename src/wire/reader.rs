@@ -86,11 +86,7 @@ impl<'a> JsonNode<'a> {
         let names_there = object.fields.iter().map(|(name, _)| name.as_ref());
         for name in names_there.filter(|name| !names.known.contains(name)).take(MAX_ERRORS) {
             let path = self.path.field(name);
-            if names.reserved.contains(&name) {
-                faults.add(ErrorCode::UnknownField, &path, format_args!("this name is reserved for a later version"));
-            } else {
-                faults.add(ErrorCode::UnknownField, &path, format_args!("known here: {}", names.known.join(", ")));
-            }
+            faults.add(ErrorCode::UnknownField, &path, format_args!("known here: {}", names.known.join(", ")));
         }
         Some(Fields { object, path: self.path })
     }
@@ -199,12 +195,11 @@ impl<'a> JsonNode<'a> {
 /// The names of an object's fields.
 pub(super) struct FieldNames {
     pub(super) known: &'static [&'static str],
-    pub(super) reserved: &'static [&'static str],
 }
 
 impl FieldNames {
     pub(super) const fn of(known: &'static [&'static str]) -> Self {
-        Self { known, reserved: &[] }
+        Self { known }
     }
 }
 

@@ -36,8 +36,18 @@ pub(super) const REQUEST: FieldNames =
     FieldNames::of(&["scene_id", "table", "gripper", "objects", "target", "goal", "drop_offs", "settings"]);
 const TABLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max", "keep_out"]);
 const RECTANGLE: FieldNames = FieldNames::of(&["x_min", "y_min", "x_max", "y_max"]);
-const GRIPPER: FieldNames =
-    FieldNames::of(&["fingers", "finger_width", "clearance", "margin", "yaw_tolerance", "max_opening", "opening"]);
+const GRIPPER: FieldNames = FieldNames::of(&[
+    "fingers",
+    "finger_width",
+    "clearance",
+    "margin",
+    "yaw_tolerance",
+    "max_opening",
+    "opening",
+    "finger_length",
+    "palm_radius",
+    "tip_height",
+]);
 
 /// A planning request; `names` includes its own fields.
 pub(super) fn request(
@@ -130,10 +140,20 @@ fn gripper(node: JsonNode<'_>, faults: &mut RequestFaults) -> Option<GripperDraf
         yaw_tolerance: fields.optional("yaw_tolerance", 0.0, faults, |node, faults| node.number(faults)),
         max_opening: fields.stated("max_opening", faults, |node, faults| node.number(faults)),
         opening: fields.stated("opening", faults, |node, faults| node.word(&OPENINGS, faults)),
+        finger_length: fields.stated("finger_length", faults, |node, faults| node.number(faults)),
+        palm_radius: fields.stated("palm_radius", faults, |node, faults| node.number(faults)),
+        tip_height: fields.stated("tip_height", faults, |node, faults| node.number(faults)),
     };
-    // Where the greatest opening can't be read, nobody asks for it.
-    let readable = fields.states("max_opening") == draft.max_opening.is_some();
-    Some(GripperDraft { opening: draft.opening.filter(|_| readable), ..draft })
+    // Where the greatest opening, or a half of the palm, can't be read, nobody asks for it.
+    let readable = |name, value: Option<f64>| fields.states(name) == value.is_some();
+    let opens = readable("max_opening", draft.max_opening);
+    let palm = readable("finger_length", draft.finger_length) && readable("palm_radius", draft.palm_radius);
+    Some(GripperDraft {
+        opening: draft.opening.filter(|_| opens),
+        finger_length: draft.finger_length.filter(|_| palm),
+        palm_radius: draft.palm_radius.filter(|_| palm),
+        ..draft
+    })
 }
 
 fn objects(node: JsonNode<'_>, limits: &RequestLimits, faults: &mut RequestFaults) -> Option<Vec<ObjectDraft>> {

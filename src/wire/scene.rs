@@ -41,7 +41,11 @@ pub struct SceneBody {
     /// The objects on the table, target included. A table that is cleared may be empty.
     #[schema(max_items = 10000, example = json!([
         {"id": "plate-1", "x": 0.31, "y": 0.22, "radius": 0.075},
-        {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "fixed": true}
+        {"id": "vase", "x": 0.9, "y": 0.5, "radius": 0.05, "height": 0.3, "fixed": true},
+        {"id": "tray", "x": 0.7, "y": 0.2, "yaw": 0.3, "height": 0.03,
+            "shape": {"kind": "rectangle", "length": 0.4, "width": 0.3, "corner_radius": 0.02},
+            "grasps": [{"x": 0.18, "y": 0, "yaw": 0, "tolerance": 0.1}]},
+        {"id": "knife", "x": 0.43, "y": 0.22, "yaw": 1.5708, "shape": {"kind": "capsule", "length": 0.2, "radius": 0.01}}
     ]))]
     pub objects: Vec<ObjectBody>,
     /// The id of the object to grasp. It must not be fixed. Either this or `goal` is required.
@@ -129,6 +133,20 @@ pub struct GripperBody {
     /// How far the fingers open before a grasp and after a release. Default: `fit`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opening: Option<OpeningWord>,
+    /// From the fingertips to the palm, m. Either both this and `palm_radius` are there, or neither. Default: no palm, so nothing
+    /// can meet it.
+    #[schema(minimum = 0.000001, maximum = 1000, example = 0.12)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finger_length: Option<f64>,
+    /// The radius of a disc round the gripper's axis that covers the palm, m.
+    #[schema(minimum = 0.000001, maximum = 1000, example = 0.06)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub palm_radius: Option<f64>,
+    /// How high over the table the fingertips are at a grasp or release, m; higher only where the palm would meet the object that is
+    /// held. Default: 0.
+    #[schema(minimum = 0, maximum = 1000, example = 0.01)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_height: Option<f64>,
 }
 
 /// How far the fingers open.
@@ -184,6 +202,9 @@ impl GripperBody {
             yaw_tolerance: Some(gripper.yaw_tolerance()),
             max_opening: gripper.max_opening(),
             opening: (gripper.opening() == Opening::Full).then_some(OpeningWord::Full),
+            finger_length: gripper.palm().map(|palm| palm.finger_length),
+            palm_radius: gripper.palm().map(|palm| palm.radius),
+            tip_height: (gripper.tip_height() > 0.0).then(|| gripper.tip_height()),
         }
     }
 }

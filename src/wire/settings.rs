@@ -48,7 +48,7 @@ pub struct SettingsBody {
     #[schema(minimum = 1, maximum = 60000, example = 1000)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_limit_ms: Option<u32>,
-    /// How deep two discs may overlap and still pass as perception noise, m. Default: 0.001. At most 0.01 unless the
+    /// How deep two objects may overlap and still pass as perception noise, m. Default: 0.001. At most 0.01 unless the
     /// operator allows more.
     #[schema(minimum = 0, maximum = 0.01, example = 0.003)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -158,7 +158,7 @@ impl From<Repositioning> for PlacementWord {
 /// The settings of a request, before its table is known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StatedSettings {
-    /// How deep discs may overlap, m; `None` if unreadable.
+    /// How deep objects may overlap, m; `None` if unreadable.
     overlap_tolerance: Option<f64>,
     /// `None` also if it is unreadable.
     destination: Option<Destination>,
@@ -207,7 +207,7 @@ impl StatedSettings {
         self.planning.is_some_and(|planning| planning.raster || !planning.methods.proven())
     }
 
-    /// How deep discs may overlap, m. If it is unreadable, the greatest tolerance, so that no overlap is reported that
+    /// How deep objects may overlap, m. If it is unreadable, the greatest tolerance, so that no overlap is reported that
     /// a valid value could allow; the fault itself has been noted.
     pub(super) fn overlap_tolerance(&self, limits: &RequestLimits) -> f64 {
         self.overlap_tolerance.unwrap_or_else(|| limits.greatest_overlap_tolerance())

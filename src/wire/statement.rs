@@ -15,7 +15,7 @@ use super::problem::Problem;
 use super::reader::{FieldNames, JsonNode, RequestFaults, parse};
 use super::request::{REQUEST, request};
 use super::scene::SceneBody;
-use super::step::{self, StatedGraspBody, StatedStep};
+use super::stated_step::{self, StatedGraspBody, StatedStep};
 use super::typed;
 use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
 use singulate_planner::cost::Cost;
@@ -55,7 +55,8 @@ pub struct PlanBody {
     /// The steps, in order.
     #[schema(example = json!([{
         "action": "pick_place", "object": "plate-2", "from": {"x": 0.4, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
-        "grasp": {"yaw": 0.31, "slack": 0.12}, "release": {"yaw": 1.02, "slack": 0.5}, "gap": 0.031
+        "grasp": {"x": 0.4, "y": 0.2, "yaw": 0.31, "slack": 0.12},
+        "release": {"x": 1.1, "y": 0.6, "yaw": 1.02, "slack": 0.5}, "gap": 0.031
     }]))]
     pub relocations: Vec<StatedStep>,
     /// The grasp of the target after all relocations.
@@ -214,7 +215,12 @@ fn plan(node: JsonNode<'_>, scene: Option<&Scene>, partial: bool, faults: &mut R
     let grasps = scene.is_none_or(|scene| !scene.goal().candidates().is_empty());
     let relocations = fields.required("relocations", faults, |node, faults| {
         // Unreadable steps are missing from this list, but their faults refuse the whole body.
-        Some(node.list(faults, |node, faults| step::read(node, faults).map(Some))?.into_iter().flatten().collect())
+        Some(
+            node.list(faults, |node, faults| stated_step::read(node, faults).map(Some))?
+                .into_iter()
+                .flatten()
+                .collect(),
+        )
     });
     // Without a verdict, only the steps and the last grasp can be checked.
     if !partial && grasps && !fields.states("verdict") && !fields.states("target_grasp") {
@@ -227,7 +233,7 @@ fn plan(node: JsonNode<'_>, scene: Option<&Scene>, partial: bool, faults: &mut R
         verdict,
         relocations,
         target: target.filter(|_| scene.is_none_or(|scene| scene.target().is_none())),
-        target_grasp: fields.stated("target_grasp", faults, step::read_grasp),
+        target_grasp: fields.stated("target_grasp", faults, stated_step::read_grasp),
         cost: fields.stated("cost", faults, count),
         lower_bound: fields.stated("lower_bound", faults, count),
         optimal: fields.stated("optimal", faults, |node, faults| node.boolean(faults)),

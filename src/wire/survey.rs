@@ -10,7 +10,7 @@ use singulate_planner::scene::Scene;
 /// Each object that can be grasped at all, as the target. No places are searched for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct SurveyBody {
-    /// The objects that are neither fixed nor too wide, in the order of the request.
+    /// The objects that are neither fixed nor too wide nor without a grasp, in the order of the request.
     #[schema(example = json!([{"id": "plate-1", "verdict": "relocate", "lower_bound": 2, "optimal": true}]))]
     pub objects: Vec<SurveyedObject>,
 }

@@ -2,9 +2,12 @@
 
 mod answers;
 mod drop_offs;
+mod edits;
 mod malformed;
 mod noise;
 mod requests;
+mod shape_faults;
+mod shapes;
 mod slips;
 mod typed;
 mod walk;

@@ -1,12 +1,7 @@
 //! Reads a sound scene straight from its text, without a JSON value in between. All that it refuses is walked as a value,
 //! which names every fault; all that it takes the walk takes with the same result.
 
-use core::fmt;
-use core::marker::PhantomData;
-
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::drop_off::DropOffFields;
@@ -17,6 +12,7 @@ use super::plan_request::StatedRequest;
 use super::reader::{JsonNode, RequestFaults, parse};
 use super::scene::OPENINGS;
 use super::settings::StatedSettings;
+use super::strict::{Object, present};
 use super::walk::MAX_DEPTH;
 use singulate_planner::check::{POSITION_TOLERANCE_RANGE, Terms};
 use singulate_planner::scene::{GoalDraft, GripperDraft, Opening, RectangleDraft, SceneDraft, TableDraft};
@@ -77,35 +73,6 @@ fn nesting(text: &str) -> usize {
 
 fn object<'t, T: Deserialize<'t>>(body: &'t [u8]) -> Option<T> {
     serde_json::from_slice::<Object<T>>(body).ok().map(|Object(fields)| fields)
-}
-
-/// A JSON object. The derived code would also accept a list of the fields' values.
-struct Object<T>(T);
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(Fields(PhantomData)).map(Self)
-    }
-}
-
-struct Fields<T>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
-    type Value = T;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an object")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
-        T::deserialize(MapAccessDeserializer::new(map))
-    }
-}
-
-/// A field that is present, even if it is null.
-#[expect(clippy::option_option, reason = "absent, null or a value")]
-fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
-    Option::deserialize(deserializer).map(Some)
 }
 
 #[derive(Deserialize)]
@@ -169,6 +136,9 @@ struct GripperFields {
     yaw_tolerance: Option<f64>,
     max_opening: Option<f64>,
     opening: Option<String>,
+    finger_length: Option<f64>,
+    palm_radius: Option<f64>,
+    tip_height: Option<f64>,
 }
 
 impl RequestFields<'_> {
@@ -187,7 +157,7 @@ impl RequestFields<'_> {
         let draft = SceneDraft {
             table: table.0.into(),
             gripper: gripper.0.draft()?,
-            objects: objects.into_iter().map(|Object(fields)| fields.into()).collect(),
+            objects: objects.into_iter().map(|Object(fields)| fields.draft()).collect::<Option<_>>()?,
             goal: Some(wanted(target, goal)?),
             drop_offs: drop_offs.map(|list| list.into_iter().map(|Object(fields)| fields.into()).collect()),
             destination: None,
@@ -247,6 +217,9 @@ impl GripperFields {
             yaw_tolerance: Some(fields.yaw_tolerance.unwrap_or_default()),
             max_opening: fields.max_opening,
             opening,
+            finger_length: fields.finger_length,
+            palm_radius: fields.palm_radius,
+            tip_height: fields.tip_height,
         })
     }
 }

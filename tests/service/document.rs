@@ -4,8 +4,9 @@ use serde_json::{Value, json};
 use singulate::api::{ServerSettings, openapi_json};
 use singulate::wire::{MAX_SCENE_ID_LENGTH, RequestLimits};
 use singulate_planner::scene::{
-    CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_DROP_OFFS, MAX_FINDINGS,
-    MAX_ID_LENGTH, SceneLimits, YAW_TOLERANCE_RANGE,
+    CAPACITY_RANGE, COORDINATE_RANGE, DEFAULT_TOLERANCE, FINGERS_RANGE, GRASP_OFFSET_RANGE, LENGTH_RANGE, MARGIN_RANGE,
+    MAX_DROP_OFFS, MAX_FINDINGS, MAX_GRASPS, MAX_ID_LENGTH, MAX_POINTS, POINT_RANGE, SceneLimits, TIP_HEIGHT_RANGE,
+    YAW_RANGE, YAW_TOLERANCE_RANGE,
 };
 
 use crate::host::Host;
@@ -36,9 +37,23 @@ fn the_ranges_of_the_document_are_those_of_the_checks() {
         ("TableBody", &["x_min", "y_min", "x_max", "y_max"][..], COORDINATE_RANGE),
         ("RectangleBody", &["x_min", "y_min", "x_max", "y_max"], COORDINATE_RANGE),
         ("ObjectBody", &["x", "y"], COORDINATE_RANGE),
-        ("StatedPoint", &["x", "y"], COORDINATE_RANGE),
-        ("ObjectBody", &["radius"], LENGTH_RANGE),
-        ("GripperBody", &["finger_width", "clearance", "max_opening"], LENGTH_RANGE),
+        ("StatedPose", &["x", "y"], COORDINATE_RANGE),
+        ("StatedGrasp", &["x", "y"], COORDINATE_RANGE),
+        ("ObjectBody", &["yaw"], YAW_RANGE),
+        ("ObjectBody", &["radius", "height"], LENGTH_RANGE),
+        ("DiscShape", &["radius"], LENGTH_RANGE),
+        ("CapsuleShape", &["radius"], LENGTH_RANGE),
+        ("CapsuleShape", &["length"], (2.0 * LENGTH_RANGE.0, 2.0 * LENGTH_RANGE.1)),
+        ("RectangleShape", &["length", "width"], LENGTH_RANGE),
+        ("RectangleShape", &["corner_radius"], (0.0, LENGTH_RANGE.1 / 2.0)),
+        ("PolygonShape", &["corner_radius"], (0.0, LENGTH_RANGE.1)),
+        ("ShapePoint", &["x", "y"], POINT_RANGE),
+        ("ListedGraspBody", &["x", "y"], GRASP_OFFSET_RANGE),
+        ("ListedGraspBody", &["yaw"], YAW_RANGE),
+        // π/k for two fingers.
+        ("ListedGraspBody", &["tolerance"], (0.0, core::f64::consts::FRAC_PI_2)),
+        ("GripperBody", &["finger_width", "clearance", "max_opening", "finger_length", "palm_radius"], LENGTH_RANGE),
+        ("GripperBody", &["tip_height"], TIP_HEIGHT_RANGE),
         ("DropOffBody", &["capacity"], CAPACITY_RANGE),
         ("GripperBody", &["fingers"], FINGERS_RANGE),
         ("GripperBody", &["margin"], MARGIN_RANGE),
@@ -69,6 +84,8 @@ fn the_lengths_of_the_document_are_those_of_the_checks() {
         ("SceneBody", "drop_offs", "maxItems", MAX_DROP_OFFS),
         ("JobSceneBody", "drop_offs", "maxItems", MAX_DROP_OFFS),
         ("DropOffBody", "id", "maxLength", MAX_ID_LENGTH),
+        ("ObjectBody", "grasps", "maxItems", MAX_GRASPS),
+        ("PolygonShape", "points", "maxItems", MAX_POINTS),
         ("Problem", "errors", "maxItems", MAX_FINDINGS),
         ("SettingsBody", "time_limit_ms", "maximum", usize::try_from(limits.max_time_limit.as_millis()).unwrap()),
     ];
@@ -79,6 +96,8 @@ fn the_lengths_of_the_document_are_those_of_the_checks() {
     assert!(default.as_str().unwrap().contains(&format!("Default: {}.", limits.default_time_limit.as_millis())));
     let default = &schemas["SettingsBody"]["properties"]["overlap_tolerance"]["description"];
     assert!(default.as_str().unwrap().contains(&format!("Default: {}.", limits.scene.overlap_tolerance)));
+    let default = &schemas["ListedGraspBody"]["properties"]["tolerance"]["description"];
+    assert!(default.as_str().unwrap().contains(&format!("Default: {DEFAULT_TOLERANCE}.")));
     let grouped = |number: usize| format!("{},{:03},{:03}", number / 1_000_000, number / 1000 % 1000, number % 1000);
     assert!(COMMITTED.contains(&grouped(ServerSettings::default().max_body_bytes)));
 }
@@ -105,6 +124,12 @@ fn bodies_of_requests_have_no_other_fields() {
         "RectangleBody",
         "GripperBody",
         "ObjectBody",
+        "DiscShape",
+        "CapsuleShape",
+        "RectangleShape",
+        "PolygonShape",
+        "ShapePoint",
+        "ListedGraspBody",
         "GoalBody",
         "DropOffBody",
         "SettingsBody",
@@ -112,16 +137,19 @@ fn bodies_of_requests_have_no_other_fields() {
         "JobSceneBody",
         "BatchBody",
     ];
-    let stated = ["PlanBody", "StatedPickPlace", "StatedPickDrop", "StatedPoint", "StatedGrasp", "StatedDeadlock"];
+    let stated = ["PlanBody", "StatedPickPlace", "StatedPickDrop", "StatedPose", "StatedGrasp", "StatedDeadlock"];
     for name in requests.iter().chain(&stated) {
         assert_eq!(schemas[name]["additionalProperties"], json!(false), "{name}");
     }
-    let steps =
-        [("StepBody", ["PickPlaceBody", "PickDropBody"]), ("StatedStep", ["StatedPickPlace", "StatedPickDrop"])];
-    for (name, kinds) in steps {
+    let choices = [
+        ("StepBody", &["PickPlaceBody", "PickDropBody"][..]),
+        ("StatedStep", &["StatedPickPlace", "StatedPickDrop"]),
+        ("ShapeBody", &["DiscShape", "CapsuleShape", "RectangleShape", "PolygonShape"]),
+    ];
+    for (name, kinds) in choices {
         let choices = schemas[name]["oneOf"].as_array().unwrap().iter().map(|choice| choice["$ref"].clone());
-        let expected = kinds.map(|kind| json!(format!("#/components/schemas/{kind}")));
-        assert_eq!(choices.collect::<Vec<_>>(), expected, "a step is one of these and nothing else");
+        let expected: Vec<_> = kinds.iter().map(|kind| json!(format!("#/components/schemas/{kind}"))).collect();
+        assert_eq!(choices.collect::<Vec<_>>(), expected, "it is one of these and nothing else");
     }
 }
 

@@ -44,7 +44,7 @@ pub use limits::{
     MAX_GRASPS, MAX_ID_LENGTH, MAX_POINTS, POINT_RANGE, SceneLimits, TIP_HEIGHT_RANGE, YAW_RANGE, YAW_TOLERANCE_RANGE,
 };
 pub use object::{Object, ObjectIndex, Placed};
-pub use shape::Shape;
+pub use shape::{Kind, Shape};
 pub use shape_draft::ShapeDraft;
 pub use table::{Rectangle, Table};
 

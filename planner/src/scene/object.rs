@@ -28,6 +28,8 @@ pub struct Object {
     pub(super) footprint: Footprint,
     pub(super) height: Option<f64>,
     pub(super) grasps: Grasps,
+    /// True if the caller lists them.
+    pub(super) grasps_stated: bool,
     /// Whether some grasp is left that the hand can do.
     pub(super) hindrance: Option<Hindrance>,
     pub(super) fixed: bool,
@@ -94,6 +96,11 @@ impl Object {
     /// How it may be grasped, whatever the hand can do.
     pub fn grasps(&self) -> &Grasps {
         &self.grasps
+    }
+
+    /// True if the caller lists its grasps; else they go with its shape.
+    pub fn grasps_stated(&self) -> bool {
+        self.grasps_stated
     }
 
     /// True if the caller calls it fixed.

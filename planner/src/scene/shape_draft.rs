@@ -6,7 +6,7 @@ use super::convex::{Core, shoelace};
 use super::fault::{Findings, Place};
 use super::flaw::Flaw;
 use super::limits::{LENGTH_RANGE, MAX_POINTS, POINT_RANGE};
-use super::shape::Shape;
+use super::shape::{Kind, Shape};
 
 /// An unchecked shape. A `None` within means that the part was absent or unreadable.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -76,14 +76,16 @@ impl ShapeDraft {
                 let radius = check(*radius, LENGTH_RANGE, "radius");
                 let length = check(*length, (2.0 * radius.unwrap_or(0.0), 2.0 * LENGTH_RANGE.1), "length");
                 let (length, radius) = (length?, radius?);
-                Some(Shape::grown(Core::rectangle(length - 2.0 * radius, 0.0), radius))
+                let shape = Shape::grown(Core::rectangle(length - 2.0 * radius, 0.0), radius);
+                Some(shape.stated_as(Kind::Capsule { length }))
             }
             Self::Rectangle { length, width, corner_radius } => {
                 let (length, width) = (check(*length, LENGTH_RANGE, "length"), check(*width, LENGTH_RANGE, "width"));
                 let most = length.unwrap_or(LENGTH_RANGE.1).min(width.unwrap_or(LENGTH_RANGE.1)) / 2.0;
                 let radius = check(corner_radius.or(Some(0.0)), (0.0, most), "corner_radius");
                 let (length, width, radius) = (length?, width?, radius?);
-                Some(Shape::grown(Core::rectangle(length - 2.0 * radius, width - 2.0 * radius), radius))
+                let shape = Shape::grown(Core::rectangle(length - 2.0 * radius, width - 2.0 * radius), radius);
+                Some(shape.stated_as(Kind::Rectangle { length, width }))
             }
             Self::Polygon { points, corner_radius } => {
                 let radius = check(corner_radius.or(Some(0.0)), (0.0, LENGTH_RANGE.1), "corner_radius");

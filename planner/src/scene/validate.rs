@@ -264,6 +264,7 @@ impl Objects<'_> {
             footprint: Footprint::new(shape?, Pose { at: centre, yaw: yaw? }),
             height: height?,
             grasps,
+            grasps_stated: draft.grasps.is_some(),
             hindrance: None,
             fixed: draft.fixed,
             accepted: false,

@@ -15,18 +15,31 @@ use singulate_planner::cost::Cost;
 use singulate_planner::paper::{Judged, plan_by};
 use singulate_planner::plan::{Answer, Statistics};
 use singulate_planner::search::SILENT;
-use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, Statement, Step, Verdict};
+use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
+
+fn pose(x: f64, y: f64, yaw: Option<f64>) -> StatedPose {
+    StatedPose { at: Point2::new(x, y), yaw }
+}
+
+fn grasp() -> StatedGrasp {
+    StatedGrasp { at: Some(Point2::new(0.6, 0.2)), yaw: 0.5, slack: Some(0.2) }
+}
+
+/// A step of a disc; with a turn that of an object with listed grasps.
+fn pick_place(turn: Option<f64>) -> Step {
+    Step::PickPlace(PickPlace {
+        object: "b".to_owned(),
+        from: Some(pose(0.6, 0.2, turn.map(|_| 0.25))),
+        to: pose(1.1, 0.6, turn.map(|turn| 0.25 + turn)),
+        grasp: grasp(),
+        release: StatedGrasp { at: Some(Point2::new(1.1, 0.6)), ..grasp() },
+        turn,
+        gap: Some(0.031),
+    })
+}
 
 fn statements() -> Vec<Statement> {
-    let (b, grasp) = (vec!["b".to_owned()], StatedGrasp { yaw: 0.5, slack: Some(0.2) });
-    let step = Step::PickPlace(PickPlace {
-        object: "b".to_owned(),
-        from: Some(Point2::new(0.6, 0.2).into()),
-        to: Point2::new(1.1, 0.6).into(),
-        grasp,
-        release: grasp,
-        gap: Some(0.031),
-    });
+    let (b, grasp, step) = (vec!["b".to_owned()], grasp(), pick_place(None));
     let (one, stated) = (Some(Cost::new(1)), Statement::timed_out());
     let bounded = Statement { lower_bound: one, landmarks: Some(vec![b.clone()]), ..stated.clone() };
     let deadlock = Some(Deadlock { blocked: vec!["a".to_owned(), "b".to_owned()], core: vec!["a".to_owned()] });
@@ -65,9 +78,10 @@ fn bodies() -> Vec<Value> {
 
 #[test]
 fn every_verdict_is_written_with_every_field() {
-    let grasp = json!({"yaw": 0.5, "slack": 0.2});
+    let grasp = json!({"x": 0.6, "y": 0.2, "yaw": 0.5, "slack": 0.2});
+    let release = json!({"x": 1.1, "y": 0.6, "yaw": 0.5, "slack": 0.2});
     let step = json!({"action": "pick_place", "object": "b", "from": {"x": 0.6, "y": 0.2}, "to": {"x": 1.1, "y": 0.6},
-        "grasp": grasp, "release": grasp, "gap": 0.031});
+        "grasp": grasp, "release": release, "gap": 0.031});
     let lock = json!({"blocked": ["a", "b"], "core": ["a"]});
     let rows = [
         json!(["graspable", [], grasp, 0, 0, true, [], null, null]),
@@ -99,11 +113,35 @@ fn an_answer_as_served_reads_as_the_statement_that_was_checked() {
     assert_eq!((short.verdict, short.cost, short.target_grasp.unwrap().yaw), (None, None, 1.0));
 }
 
+#[test]
+fn a_step_that_turns_an_object_is_written_with_its_poses_and_read_again() {
+    let turned = |turn: Option<f64>| {
+        let relocations = Some(vec![pick_place(turn)]);
+        Statement { relocations, ..statements().swap_remove(1) }
+    };
+    let request = read(&scene().to_string()).unwrap();
+    let body = |statement| serde_json::to_value(AnswerBody::new(&request, &judged(statement))).unwrap();
+    let stated = |body: &Value| read_plan(body.to_string().as_bytes(), &request.scene, false).unwrap();
+    let written = body(turned(Some(-1.0)));
+    let grasp = json!({"x": 0.6, "y": 0.2, "yaw": 0.5, "slack": 0.2});
+    let release = json!({"x": 1.1, "y": 0.6, "yaw": 0.5, "slack": 0.2});
+    let step = json!({"action": "pick_place", "object": "b", "from": {"x": 0.6, "y": 0.2, "yaw": 0.25},
+        "to": {"x": 1.1, "y": 0.6, "yaw": -0.75}, "grasp": grasp, "release": release, "turn": -1.0, "gap": 0.031});
+    assert_eq!(written["relocations"][0].to_string(), step.to_string());
+    assert_eq!(stated(&written), turned(Some(-1.0)));
+    // A plan of before: no axes, no turn.
+    let mut before = body(turned(None));
+    for name in ["grasp", "release"] {
+        before["relocations"][0][name] = json!({"yaw": 0.5, "slack": 0.2});
+    }
+    let step = stated(&before).steps()[0].pick_place().unwrap().clone();
+    assert_eq!((step.grasp.at, step.release.at, step.to.yaw, step.turn), (None, None, None, None));
+}
+
 /// A goal, and what may be stated of it.
 fn of_goals() -> [(Value, Statement); 4] {
-    let grasp = StatedGrasp { yaw: 0.5, slack: Some(0.2) };
-    let from = Some(Point2::new(0.3, 0.2).into());
-    let drop = Step::PickDrop(PickDrop { object: "a".to_owned(), from, grasp, drop_off: "tray".to_owned() });
+    let from = Some(pose(0.3, 0.2, None));
+    let drop = Step::PickDrop(PickDrop { object: "a".to_owned(), from, grasp: grasp(), drop_off: "tray".to_owned() });
     let mut statements = statements();
     let relocate = statements.swap_remove(1);
     let stuck = Some(Deadlock { blocked: vec!["b".to_owned(), "vase".to_owned()], core: vec!["b".to_owned()] });
@@ -185,6 +223,12 @@ fn a_faulty_plan_is_told_at_its_place() {
     refuses_plan("/relocations/0/action", json!("push"), "unknown_value");
     refuses_plan("/relocations/0/to/x", json!(1e6), "out_of_range");
     refuses_plan("/relocations/0/grasp", json!(1), "wrong_type");
+    refuses_plan("/relocations/0/grasp/x", json!(1e6), "out_of_range");
+    refuses_plan("/relocations/0/release/y", json!("0.6"), "wrong_type");
+    refuses_plan("/relocations/0/grasp/x", Value::Null, "missing");
+    refuses_plan("/target_grasp/y", Value::Null, "missing");
+    refuses_plan("/relocations/0/to/yaw", json!("0.3"), "wrong_type");
+    refuses_plan("/relocations/0/turn", json!("0.3"), "wrong_type");
 }
 
 #[test]

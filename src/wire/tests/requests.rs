@@ -85,16 +85,10 @@ fn a_field_of_the_wrong_type_is_told_at_its_place() {
 
 #[test]
 fn a_field_that_nobody_knows_is_told_at_its_place() {
-    for pointer in ["/colour", "/table/z", "/gripper/force", "/objects/1/shape"] {
+    for pointer in ["/colour", "/table/z", "/gripper/force", "/objects/1/depth"] {
         refuses(&with(pointer, json!("x")).to_string(), &[("unknown_field", pointer)]);
     }
     refuses(&with("/settings", json!({"a/b~c": 1})).to_string(), &[("unknown_field", "/settings/a~1b~0c")]);
-}
-
-#[test]
-fn the_reserved_name_says_that_it_is_reserved() {
-    let problem = read(&with("/objects/0/shape", json!("disc")).to_string()).unwrap_err();
-    assert!(problem.errors()[0].detail.contains("reserved"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 use serde_json::Value;
 
-use super::typed::{EDITS, SOUND};
+use super::edits::{EDITS, SOUND};
 use super::{has_faults, read, scene};
 use crate::wire::json::Json;
 use crate::wire::malformed::Sound;
