@@ -22,7 +22,7 @@ impl Shape {
     }
 
     /// A core grown by a radius ≥ 0, m; a point grown by one > 0.
-    pub(super) fn grown(core: Option<Core>, radius: f64) -> Self {
+    pub(crate) fn grown(core: Option<Core>, radius: f64) -> Self {
         let circumradius = core.as_ref().map_or(radius, |core| core.circumradius() + radius);
         let inner = |core: &Core| core.axes().iter().map(|axis| axis.offset).fold(f64::INFINITY, f64::min);
         let inradius = core.as_ref().map_or(radius, |core| (inner(core) + radius).max(0.0));
