@@ -63,7 +63,9 @@ fn answers() -> bool {
     let discs = median((0..TABLES).map(|seed| answer_time(two_jaws(seed))).collect());
     let shapes = median((0..TABLES).map(|seed| answer_time(shaped(&two_jaws(seed), seed))).collect());
     let ratio = shapes / discs;
-    println!("median answer for 50 objects: discs {discs:.0} µs, shapes {shapes:.0} µs, {ratio:.2} times (at most {MAX_RATIO})");
+    println!(
+        "median answer for 50 objects: discs {discs:.0} µs, shapes {shapes:.0} µs, {ratio:.2} times (at most {MAX_RATIO})"
+    );
     ratio <= MAX_RATIO
 }
 

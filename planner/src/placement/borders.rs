@@ -25,27 +25,24 @@ impl Border {
     pub(super) fn beside(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper, gap: f64) -> Self {
         let (radius, others) = (own.footprint.radius(), obstacle.footprint.radius());
         let clear = gripper.margin() + INSIDE;
-        let distances = [
-            radius + others + gap + INSIDE,
-            reach(own, gripper) + others + clear,
-            reach(obstacle, gripper) + radius + clear,
+        let touching = radius + others + gap + INSIDE;
+        // Of long objects the circles are only near enough: they are where nothing hinders any more.
+        let apart = [
+            reach(own, gripper) + obstacle.footprint.circumradius() + clear,
+            reach(obstacle, gripper) + own.footprint.circumradius() + clear,
         ];
         let at = obstacle.footprint.at();
         let mirrored = own.footprint.core().map(Core::mirrored);
-        match (obstacle.footprint.core(), &mirrored) {
-            (None, None) => {
-                let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&distances);
-                radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
-                let circles = radii.into_iter().map(|radius| Circle::whole(at, radius)).collect();
-                Self { circles, ..Self::default() }
-            }
-            (theirs, mine) => {
-                let mut border = Self::round(at, theirs, mine.as_ref(), distances[0]);
-                border.grow(at, theirs, distances[1]);
-                border.grow(at, mine.as_ref(), distances[2]);
-                border
-            }
+        let theirs = obstacle.footprint.core();
+        if theirs.is_none() && mirrored.is_none() {
+            let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&[touching, apart[0], apart[1]]);
+            radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
+            let circles = radii.into_iter().map(|radius| Circle::whole(at, radius)).collect();
+            return Self { circles, ..Self::default() };
         }
+        let mut border = Self::round(at, theirs, mirrored.as_ref(), touching);
+        border.circles.extend(apart.map(|radius| Circle::whole(at, radius)));
+        border
     }
 
     /// The outline of the sum of two cores, grown by `radius`.
