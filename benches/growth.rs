@@ -5,6 +5,8 @@
 //! each of 144, or more than a second for 10,000.
 
 mod cases;
+#[path = "cases/slope.rs"]
+mod slope;
 
 use core::hint::black_box;
 use std::process::ExitCode;
@@ -18,6 +20,7 @@ use singulate_planner::scene::{
 };
 use singulate_planner::search::SILENT;
 use singulate_planner::statement::Verdict;
+use slope::slope;
 
 const SIZES: [usize; 8] = [50, 100, 200, 500, 1000, 2000, 5000, 10_000];
 const SCENES: u64 = 3;
@@ -60,7 +63,7 @@ fn loose(side: usize) -> SceneDraft {
         x: Some(x),
         y: Some(y),
         shape: ShapeDraft::disc(0.04),
-        fixed: false,
+        ..ObjectDraft::default()
     });
     let length = Some(0.3 * cases::count(side));
     let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: length, y_max: length };
@@ -124,13 +127,4 @@ fn main() -> ExitCode {
     let slope = slope(&points);
     println!("slope of log time over log N: {slope:.3} (at most {MAX_SLOPE})");
     if surveys() & clearings() && slope <= MAX_SLOPE { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Least squares.
-fn slope(points: &[(f64, f64)]) -> f64 {
-    let n = cases::count(points.len());
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
-    let (above, below) =
-        points.iter().fold((0.0, 0.0), |(a, b), p| (a + (p.0 - x) * (p.1 - y), b + (p.0 - x) * (p.0 - x)));
-    above / below
 }

@@ -64,6 +64,9 @@ pub(super) struct Generate {
     /// One dense cluster instead of objects anywhere
     #[arg(long)]
     pressed: bool,
+    /// Rectangles, capsules and polygons among the discs
+    #[arg(long)]
+    shapes: bool,
 }
 
 /// `0.075` or `0.05..0.1`.
@@ -118,6 +121,7 @@ impl Generate {
     pub(super) fn run(self) -> Result<(), Failure> {
         let refused = |error: GenerateError| Failure::Refused(format!("no scene: {error}"));
         let draft = experiments::generate(&self.recipe(), self.seed).map_err(refused)?;
+        let draft = if self.shapes { experiments::shaped(&draft, self.seed) } else { draft };
         // Limits other than the scene's size are checked by the reader of the scene.
         let limits = SceneLimits { max_objects: usize::MAX, max_neighbours: usize::MAX - 2, ..SceneLimits::default() };
         let (scene, _) = Scene::new(draft, &limits).map_err(|faults| refused(GenerateError::Scene(faults)))?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use singulate::experiments::{varied, wanting};
+use singulate::experiments::{mixed, varied, wanting};
 use singulate::wire::{AnswerBody, RequestLimits, SceneBody, read_plan, read_scene};
 use singulate_planner::budget::Budget;
 use singulate_planner::check::check;
@@ -50,6 +50,14 @@ fn verdicts(name: &str, count: u64, draft: fn(u64) -> SceneDraft) -> BTreeMap<&'
 fn no_generated_scene_gets_an_answer_that_fails_its_check() {
     let verdicts = verdicts("target", count("GENERATED_SCENES", 500), varied);
     for name in ["graspable", "relocate", "deadlock"] {
+        assert!(verdicts.contains_key(name), "no scene with the verdict {name}: {verdicts:?}");
+    }
+}
+
+#[test]
+fn no_generated_scene_of_mixed_shapes_gets_an_answer_that_fails_its_check() {
+    let verdicts = verdicts("mixed", count("GENERATED_SHAPES", 300), |seed| mixed(&varied(seed), seed));
+    for name in ["graspable", "relocate", "deadlock", "cleared", "partly_cleared"] {
         assert!(verdicts.contains_key(name), "no scene with the verdict {name}: {verdicts:?}");
     }
 }

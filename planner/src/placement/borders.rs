@@ -25,31 +25,34 @@ impl Border {
     pub(super) fn beside(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper, gap: f64) -> Self {
         let (radius, others) = (own.footprint.radius(), obstacle.footprint.radius());
         let clear = gripper.margin() + INSIDE;
-        let distances = [
-            radius + others + gap + INSIDE,
-            reach(own, gripper) + others + clear,
-            reach(obstacle, gripper) + radius + clear,
+        let touching = radius + others + gap + INSIDE;
+        // Of long objects the circles are only near enough: they are where nothing hinders any more.
+        let apart = [
+            reach(own, gripper) + obstacle.footprint.circumradius() + clear,
+            reach(obstacle, gripper) + own.footprint.circumradius() + clear,
         ];
         let at = obstacle.footprint.at();
         let mirrored = own.footprint.core().map(Core::mirrored);
-        match (obstacle.footprint.core(), &mirrored) {
-            (None, None) => {
-                let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&distances);
-                radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
-                let circles = radii.into_iter().map(|radius| Circle::whole(at, radius)).collect();
-                Self { circles, ..Self::default() }
-            }
-            (theirs, mine) => {
-                let mut border = Self::default();
-                match (theirs, mine) {
-                    (Some(theirs), Some(mine)) => border.grow(at, Some(&theirs.sum(mine)), distances[0]),
-                    _ => border.grow(at, theirs.or(mine.as_ref()), distances[0]),
-                }
-                border.grow(at, theirs, distances[1]);
-                border.grow(at, mine.as_ref(), distances[2]);
-                border
-            }
+        let theirs = obstacle.footprint.core();
+        if theirs.is_none() && mirrored.is_none() {
+            let mut radii: SmallVec<[f64; 4]> = SmallVec::from_slice(&[touching, apart[0], apart[1]]);
+            radii.dedup_by(|a, b| (*a - *b).abs() < INSIDE);
+            let circles = radii.into_iter().map(|radius| Circle::whole(at, radius)).collect();
+            return Self { circles, ..Self::default() };
         }
+        let mut border = Self::round(at, theirs, mirrored.as_ref(), touching);
+        border.circles.extend(apart.map(|radius| Circle::whole(at, radius)));
+        border
+    }
+
+    /// The outline of the sum of two cores, grown by `radius`.
+    fn round(at: Point2<f64>, theirs: Option<&Core>, mine: Option<&Core>, radius: f64) -> Self {
+        let mut border = Self::default();
+        match (theirs, mine) {
+            (Some(theirs), Some(mine)) => border.grow(at, Some(&theirs.sum(mine)), radius),
+            _ => border.grow(at, theirs.or(mine), radius),
+        }
+        border
     }
 
     /// Where the origin of a footprint may stand inside a rectangle, `gap` (m) from its edge. Empty where the rectangle is too
@@ -164,4 +167,51 @@ fn sides(min: Point2<f64>, max: Point2<f64>, keep: f64) -> SmallVec<[Side; 4]> {
     let horizontal = |at| Side { direction: Direction::Horizontal, at, from: min.x, to: max.x };
     let (left, right) = (vertical(min.x - keep), vertical(max.x + keep));
     SmallVec::from_buf([left, right, horizontal(min.y - keep), horizontal(max.y + keep)])
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::scene::{Pose, Shape};
+
+    /// A polygon of some points, or a disc where they are on one line.
+    fn footprint(points: &[(f64, f64)], radius: f64, (x, y, yaw): (f64, f64, f64)) -> Footprint {
+        let points: Vec<Vector2<f64>> = points.iter().map(|&(x, y)| Vector2::new(x, y)).collect();
+        let shape = Core::hull(&points).map_or(Shape::disc(radius + 0.01), |core| Shape::grown(Some(core), radius));
+        Footprint::new(shape, Pose { at: Point2::new(x, y), yaw })
+    }
+
+    fn points() -> impl Strategy<Value = Vec<(f64, f64)>> {
+        proptest::collection::vec((-0.3..0.3_f64, -0.3..0.3_f64), 1..7)
+    }
+
+    proptest! {
+        #[test]
+        fn a_border_keeps_the_gap_exactly_wherever_one_stands_on_it(
+            (own, theirs) in (points(), points()), (radius, others) in (0.0..0.1_f64, 0.0..0.1_f64),
+            place in (-1.0..1.0_f64, -1.0..1.0_f64, 0.0..7.0_f64), yaw in 0.0..7.0_f64, gap in 0.0..0.02_f64,
+            asked in proptest::collection::vec((-2.0..2.0_f64, -2.0..2.0_f64), 8),
+        ) {
+            let own = footprint(&own, radius, (0.0, 0.0, yaw));
+            let obstacle = footprint(&theirs, others, place);
+            let mirrored = own.core().map(Core::mirrored);
+            let keep = own.radius() + obstacle.radius() + gap;
+            let border = Border::round(obstacle.at(), obstacle.core(), mirrored.as_ref(), keep);
+            for (x, y) in asked {
+                let (mut nearest, asked) = (f64::INFINITY, Point2::new(x, y));
+                border.extremes(asked, |at| {
+                    let stands = own.moved_to(Pose { at, yaw });
+                    nearest = nearest.min(distance(at, asked));
+                    assert!((stands.gap(&obstacle) - gap).abs() < 1e-9, "{at} {}", stands.gap(&obstacle));
+                });
+                // The nearest point of the border is among them: nearer ones are free or too near.
+                let stands = own.moved_to(Pose { at: asked, yaw });
+                if stands.gap(&obstacle) >= gap {
+                    prop_assert!((stands.gap(&obstacle) - gap - nearest).abs() < 1e-9);
+                }
+            }
+        }
+    }
 }

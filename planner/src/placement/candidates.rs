@@ -4,6 +4,7 @@
 //! is best first: a curve is expanded in the order of the best score that any of its points can have. So places come
 //! out in the order of their scores, and only the curves that matter are expanded.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -44,6 +45,8 @@ pub(super) struct Candidates {
     table: Border,
     /// How far an obstacle's border reaches from the obstacle's origin, at most, m.
     span: f64,
+    /// Per obstacle its border, where it is not made of circles alone and so is worth keeping.
+    borders: Vec<Option<Box<Border>>>,
     /// Per obstacle whether its border is expanded: the points where it meets other borders are in the heap.
     expanded: Vec<bool>,
     /// The same per keep-out.
@@ -123,6 +126,7 @@ impl Candidates {
             origin,
             table: Border::default(),
             span: 0.0,
+            borders: vec![None; scene.objects().len()],
             expanded: vec![false; scene.objects().len()],
             expanded_areas: vec![false; scene.table().keep_out().len()],
             heap: BinaryHeap::new(),
@@ -150,7 +154,7 @@ impl Candidates {
                 Kind::Place => return Ok(Some(Pose { at: entry.at, yaw: self.spec.yaw })),
                 Kind::Obstacle(object) => {
                     self.expanded[object.get()] = true;
-                    let (obstacle, border) = (layout.footprint(object).at(), self.beside(layout, object));
+                    let (obstacle, border) = (layout.footprint(object).at(), self.beside(layout, object).into_owned());
                     self.expand(layout, &border, obstacle, border.farthest(obstacle));
                 }
                 Kind::KeepOut(at) => {
@@ -220,22 +224,28 @@ impl Candidates {
 
     fn add_obstacles(&mut self, layout: &Layout<'_>) {
         for object in layout.scene().indices().filter(|&object| !layout.is_lifted(object)) {
-            let (at, border) = (layout.footprint(object).at(), self.beside(layout, object));
+            let (at, border) = (layout.footprint(object).at(), self.beside(layout, object).into_owned());
             self.span = self.span.max(border.farthest(at));
             let score = match self.spec.objective {
                 Objective::FarFromTarget => border.farthest(self.origin),
                 Objective::ShortMoves => -border.nearest(self.origin),
             };
             self.heap.push(HeapEntry { score, at, kind: Kind::Obstacle(object) });
+            if !border.edges.is_empty() {
+                self.borders[object.get()] = Some(Box::new(border));
+            }
         }
     }
 
     /// The border beside an obstacle.
-    fn beside(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> Border {
+    fn beside(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> Cow<'_, Border> {
+        if let Some(border) = &self.borders[obstacle.get()] {
+            return Cow::Borrowed(border);
+        }
         let scene = layout.scene();
         let own = Placed { object: scene.object(self.spec.object), footprint: &self.own };
         let obstacle = Placed { object: scene.object(obstacle), footprint: layout.footprint(obstacle) };
-        Border::beside(own, obstacle, scene.gripper(), self.spec.gap)
+        Cow::Owned(Border::beside(own, obstacle, scene.gripper(), self.spec.gap))
     }
 
     /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.

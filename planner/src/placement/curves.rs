@@ -72,10 +72,12 @@ impl Edge {
     /// The point where it crosses another one.
     pub(super) fn meet(&self, other: &Self) -> Option<Point2<f64>> {
         let (along, others, towards) = (self.end - self.start, other.end - other.start, other.start - self.start);
+        // Shares of both lengths, times `across`: most pairs don't meet, and need no division.
         let across = along.perp(&others);
-        let (share, other_share) = (towards.perp(&others) / across, towards.perp(&along) / across);
-        let within = |share: f64| (0.0..=1.0).contains(&share);
-        (across != 0.0 && within(share) && within(other_share)).then(|| self.start + along * share)
+        let sign = if across < 0.0 { -1.0 } else { 1.0 };
+        let within = |share: f64| (0.0..=across.abs()).contains(&(sign * share));
+        let share = towards.perp(&others);
+        (across != 0.0 && within(share) && within(towards.perp(&along))).then(|| self.start + along * (share / across))
     }
 
     /// Its ends, and the foot of the perpendicular from `point` if that lies between them.

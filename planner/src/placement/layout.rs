@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use crate::geometry::{Grasp, Hold, Shadow};
 use crate::knowledge::GraspModel;
-use crate::scene::{Footprint, ObjectIndex, Placed, Pose, Scene};
+use crate::scene::{Footprint, ObjectIndex, Placed, Pose, Scene, distance};
 
 /// The scene after some moves, with some objects lifted off the table.
 #[derive(Clone)]
@@ -111,7 +111,11 @@ impl<'a> Layout<'a> {
     /// The least distance from `object` at `place` to another object, edge to edge, m; infinite if there is none.
     pub fn gap(&self, object: ObjectIndex, place: &Footprint) -> f64 {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
-        others.map(|other| place.gap(self.footprint(other))).fold(f64::INFINITY, f64::min)
+        others.map(|other| self.footprint(other)).fold(f64::INFINITY, |least, other| {
+            let reach = place.circumradius() + other.circumradius();
+            let may_be_nearer = distance(place.at(), other.at()) - reach < least;
+            if may_be_nearer { least.min(place.gap(other)) } else { least }
+        })
     }
 }
 

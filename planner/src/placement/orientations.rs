@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use nalgebra::Vector2;
 
 use super::layout::Layout;
-use crate::scene::{Core, Footprint, ObjectIndex, distance};
+use crate::scene::{Core, Footprint, Gripper, ListedGrasp, ObjectIndex, distance};
 
 /// The most orientations that are tried.
 const MOST: usize = 10;
@@ -17,12 +17,11 @@ const NEIGHBOURS: usize = 2;
 /// The yaws of the frame of an object that are tried in turn: as it stands; along the table's axes; across; along the edges of its
 /// neighbours. A disc that may be grasped at every yaw has one.
 pub(super) fn orientations(layout: &Layout<'_>, object: ObjectIndex) -> Vec<f64> {
-    let (stands, grasps) = (layout.footprint(object), layout.scene().object(object).grasps());
+    let stands = layout.footprint(object);
     let yaw = stands.pose().yaw;
-    if grasps.listed().is_none() {
-        return vec![yaw];
-    }
-    let mut yaws = Yaws(vec![wrap(yaw)]);
+    let Some(list) = layout.scene().object(object).grasps().listed() else { return vec![yaw] };
+    let half_turn = is_same_after_half_a_turn(stands, list, layout.scene().gripper());
+    let mut yaws = Yaws { yaws: vec![wrap(yaw)], same_after: if half_turn { PI } else { TAU } };
     match stands.core() {
         // A disc covers the same however it is turned, but its grasps turn with it.
         None => (1..8).for_each(|eighth| yaws.add(yaw + f64::from(eighth) * FRAC_PI_4)),
@@ -37,19 +36,33 @@ pub(super) fn orientations(layout: &Layout<'_>, object: ObjectIndex) -> Vec<f64>
             }
         }
     }
-    yaws.0.truncate(MOST);
-    yaws.0
+    yaws.yaws.truncate(MOST);
+    yaws.yaws
+}
+
+/// True if the object covers the same after half a turn, and can be grasped in the same ways.
+fn is_same_after_half_a_turn(stands: &Footprint, list: &[ListedGrasp], gripper: &Gripper) -> bool {
+    let Some(core) = stands.core() else { return false };
+    let opposite = |v: &Vector2<f64>| core.vertices().iter().any(|other| (v + other).norm() < SAME);
+    gripper.fingers() % 2 == 0 && list.iter().all(|grasp| grasp.offset() < SAME) && core.vertices().iter().all(opposite)
 }
 
 /// Yaws in [0, 2π), none twice.
-struct Yaws(Vec<f64>);
+struct Yaws {
+    yaws: Vec<f64>,
+    /// A turn by this makes no difference, rad.
+    same_after: f64,
+}
 
 impl Yaws {
     fn add(&mut self, yaw: f64) {
         let yaw = wrap(yaw);
-        let is = |other: &f64| (yaw - other).abs() < SAME || TAU - (yaw - other).abs() < SAME;
-        if !self.0.iter().any(is) {
-            self.0.push(yaw);
+        let apart = |other: &f64| {
+            let turns = (yaw - other) / self.same_after;
+            (turns - turns.round()).abs() * self.same_after
+        };
+        if self.yaws.iter().all(|other| apart(other) >= SAME) {
+            self.yaws.push(yaw);
         }
     }
 }
@@ -77,4 +90,28 @@ fn edges_nearby(layout: &Layout<'_>, object: ObjectIndex, stands: &Footprint) ->
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     near.truncate(NEIGHBOURS);
     near.into_iter().map(|(_, direction)| direction).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::knowledge::SweptFinger;
+    use crate::scene::scenes::TestScene;
+
+    #[test]
+    fn a_box_is_turned_along_the_table_and_along_its_neighbour() {
+        let scene = TestScene::new(2)
+            .rectangle("box", [0.5, 0.5, 0.3], [0.2, 0.1])
+            .rectangle("other", [1.0, 0.5, -0.5], [0.1, 0.2])
+            .disc("cup", 1.5, 1.5, 0.05)
+            .build("cup");
+        let yaws = |id: &str| orientations(&Layout::new(&scene, &SweptFinger), scene.find(id).unwrap());
+        // The neighbour's longest edge is a quarter turn ahead of its frame.
+        let along = wrap(FRAC_PI_2 - 0.5);
+        let expected = [0.3, 0.0, FRAC_PI_2, 0.3 + FRAC_PI_2, along, along + FRAC_PI_2];
+        let found = yaws("box");
+        let same = |a: f64, b: f64| ((a - b) / PI - ((a - b) / PI).round()).abs() < 1e-9;
+        assert!(found.len() == 6 && found.iter().zip(expected).all(|(a, b)| same(*a, b)), "{found:?}");
+        assert_eq!(yaws("cup"), [0.0]);
+    }
 }

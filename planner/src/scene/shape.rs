@@ -44,7 +44,7 @@ impl Shape {
     }
 
     /// A core grown by a radius ≥ 0, m; a point grown by one > 0. By its kind a disc or a polygon.
-    pub(super) fn grown(core: Option<Core>, radius: f64) -> Self {
+    pub(crate) fn grown(core: Option<Core>, radius: f64) -> Self {
         let kind = if core.is_some() { Kind::Polygon } else { Kind::Disc };
         let circumradius = core.as_ref().map_or(radius, |core| core.circumradius() + radius);
         let inner = |core: &Core| core.axes().iter().map(|axis| axis.offset).fold(f64::INFINITY, f64::min);

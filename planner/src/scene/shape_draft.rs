@@ -60,6 +60,11 @@ impl ShapeDraft {
         }
     }
 
+    /// The shape, if it is sound.
+    pub fn shape(&self) -> Option<Shape> {
+        self.checked(0, &mut Findings::default(), &mut Findings::default())
+    }
+
     /// True for either form of a disc.
     pub(super) fn is_disc(&self) -> bool {
         matches!(self, Self::Radius(_) | Self::Disc { .. })

@@ -1,0 +1,8 @@
+//! Footprints of every shape against brute force: sampled yaws, and distances of polygons by another library.
+
+mod brute;
+mod distances;
+mod listed;
+mod options;
+mod random;
+mod shadows;
