@@ -59,8 +59,8 @@ fn keeps_apart(scene: &Scene, steps: &[Step], named: &str) {
     let mut discs: Vec<Footprint> = scene.objects().iter().map(|object| object.footprint().clone()).collect();
     for step in steps.iter().filter_map(Step::pick_place) {
         let at = scene.find(&step.object).unwrap().get();
-        assert_eq!(Some(discs[at].pose), step.from, "{named}");
-        discs[at].pose = step.to;
+        assert_eq!(Some(discs[at].at().into()), step.from, "{named}");
+        discs[at] = discs[at].moved_to(step.to.into());
         let others = discs.iter().enumerate().filter(|(other, _)| *other != at);
         let least = others.map(|(_, other)| discs[at].gap(other)).fold(f64::INFINITY, f64::min);
         assert!(least >= scene.gripper().margin() - 1e-9, "{named}: {least}");

@@ -16,15 +16,16 @@ use singulate_planner::statement::{PickPlace, StatedGrasp, Statement, Step, Verd
 use crate::check::scenes::{Builder, codes, judge};
 
 fn stated(scene: &Scene, arrangement: &Arrangement) -> Statement {
-    let grasp = |grasp: Grasp| StatedGrasp { at: None, yaw: grasp.yaw, slack: Some(grasp.slack) };
+    let grasp = |grasp: Grasp| StatedGrasp { at: Some(grasp.axis), yaw: grasp.yaw, slack: Some(grasp.slack) };
     let step = |step: &Move| {
         let Move::Place(step) = step else { unreachable!("the paper knows no drop-offs") };
         Step::PickPlace(PickPlace {
             object: scene.object(step.object).id().to_owned(),
-            from: Some(step.from),
-            to: step.to,
+            from: Some(step.from.at.into()),
+            to: step.to.at.into(),
             grasp: grasp(step.grasp),
             release: grasp(step.release),
+            turn: None,
             gap: Some(step.gap),
         })
     };

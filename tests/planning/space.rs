@@ -163,7 +163,7 @@ fn no_short_move_is_much_longer_than_sampling_finds() {
         let own = scene.object(scene.find(&step.object).unwrap()).footprint();
         let moved = (step.to.at - step.from.unwrap().at).norm();
         if step.gap.unwrap() >= 0.005 + scene.gripper().margin()
-            && own.moved_to(step.to).gap_inside(&scene.table().top()) >= 0.005
+            && own.moved_to(step.to.into()).gap_inside(&scene.table().top()) >= 0.005
         {
             let limit = (0.8 * moved - 0.002).max(0.0);
             assert_eq!(

@@ -131,6 +131,7 @@ fn pick_place(object: &str, to: [f64; 2], grasp_yaw: f64, release_yaw: f64) -> P
         to: Point2::new(to[0], to[1]).into(),
         grasp: StatedGrasp { at: None, yaw: grasp_yaw, slack: None },
         release: StatedGrasp { at: None, yaw: release_yaw, slack: None },
+        turn: None,
         gap: None,
     }
 }
