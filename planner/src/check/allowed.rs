@@ -1,15 +1,18 @@
 //! Which objects a plan may move, found from the figures of the scene: the planner's own notion is not asked.
 
+use core::cell::Cell;
 use std::collections::HashMap;
 
-use crate::scene::{Destination, Goal, ObjectIndex, Scene};
+use crate::scene::{Destination, Goal, Grasps, Gripper, Object, ObjectIndex, Scene};
 
-use super::measure::extent;
+use super::grip::is_too_wide;
+use super::leaning::Leaning;
 
 /// The objects of a scene by what may be done with them, whatever the goal; and its drop-offs by id.
 pub(super) struct Allowed<'s> {
-    /// Per object whether it is not fixed and not wider than the greatest opening.
-    graspable: Vec<bool>,
+    scene: &'s Scene,
+    /// Per object whether a hand can grasp it, once that was asked.
+    graspable: Vec<Cell<Option<bool>>>,
     /// Per object whether some drop-off accepts it.
     accepted: Vec<bool>,
     drop_offs: HashMap<&'s str, usize>,
@@ -20,21 +23,21 @@ const ROUNDING: f64 = 1e-12;
 
 impl<'s> Allowed<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
-        let widest = scene.gripper().max_opening().map_or(f64::INFINITY, |opening| opening * (1.0 + ROUNDING));
-        let graspable =
-            scene.objects().iter().map(|object| !object.fixed() && 2.0 * extent(object.footprint()) <= widest);
         let any = scene.drop_offs().iter().any(|drop_off| drop_off.accepts().is_none());
         let mut accepted = vec![any; scene.objects().len()];
         for object in scene.drop_offs().iter().filter_map(|drop_off| drop_off.accepts()).flatten() {
             accepted[object.get()] = true;
         }
         let drop_offs = scene.drop_offs().iter().enumerate().map(|(at, drop_off)| (drop_off.id(), at)).collect();
-        Self { graspable: graspable.collect(), accepted, drop_offs }
+        Self { scene, graspable: vec![Cell::new(None); scene.objects().len()], accepted, drop_offs }
     }
 
-    /// True if a hand can grasp the object.
+    /// True if the caller does not call the object fixed and a hand can grasp it.
     pub(super) fn graspable(&self, object: ObjectIndex) -> bool {
-        self.graspable[object.get()]
+        let known = &self.graspable[object.get()];
+        let graspable = known.get().unwrap_or_else(|| can_grasp(self.scene.gripper(), self.scene.object(object)));
+        known.set(Some(graspable));
+        graspable
     }
 
     /// True if some drop-off accepts the object.
@@ -53,6 +56,20 @@ impl<'s> Allowed<'s> {
     pub(super) fn drop_off(&self, id: &str) -> Option<usize> {
         self.drop_offs.get(id).copied()
     }
+}
+
+/// True if the object is not fixed, is higher than the fingertips, and the hand opens wide enough for it in some way.
+fn can_grasp(gripper: &Gripper, object: &Object) -> bool {
+    let shape = object.footprint().shape();
+    let reached = object.height().is_none_or(|height| height > gripper.tip_height());
+    let spans = || match object.grasps() {
+        Grasps::EveryYaw => {
+            let widest = gripper.max_opening().map_or(f64::INFINITY, |opening| opening * (1.0 + ROUNDING));
+            2.0 * shape.radius() <= widest
+        }
+        Grasps::Listed(list) => list.iter().any(|grasp| !is_too_wide(shape, grasp, gripper, Leaning::Free)),
+    };
+    !object.fixed() && reached && spans()
 }
 
 /// True if nothing may be put aside on the table.

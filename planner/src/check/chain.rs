@@ -142,8 +142,8 @@ mod tests {
 
     use super::*;
     use crate::budget::Budget;
+    use crate::check::leaning::Leaning;
     use crate::check::near::Tree;
-    use crate::check::rings::Leaning;
     use crate::scene::scenes::TestScene;
 
     /// Forward chaining over all objects, in rounds until nothing more can be lifted.

@@ -1,5 +1,7 @@
 //! The faults of a stated answer, as data.
 
+use nalgebra::Point2;
+
 use crate::cost::Cost;
 use crate::scene::ObjectIndex;
 
@@ -19,6 +21,11 @@ pub struct Fault {
 /// A figure for humans: to the checker's precision, or unrounded if that would hide it.
 pub(super) fn figure(value: f64) -> String {
     if value.abs() < 1e6 { format!("{value:.9}") } else { format!("{value:e}") }
+}
+
+/// A point for humans.
+pub(super) fn point(at: Point2<f64>) -> String {
+    format!("({}, {})", figure(at.x), figure(at.y))
 }
 
 /// The kinds of fault. Names that end in `Unconfirmed` mean that time ran out, not that the answer is wrong.
@@ -42,14 +49,20 @@ pub enum FaultCode {
     TooClose,
     /// The stated gap is not the real one.
     WrongGap,
-    /// A finger meets an obstacle at the old place.
+    /// A finger or the palm meets an obstacle at the old place.
     GraspBlocked,
-    /// A finger meets an obstacle at the new place.
+    /// A finger or the palm meets an obstacle at the new place.
     ReleaseBlocked,
-    /// A finger meets an obstacle at the target, after all steps.
+    /// A finger or the palm meets an obstacle at the target, after all steps.
     TargetBlocked,
-    /// The stated slack is less than the yaw tolerance or more than π/k.
+    /// The stated slack is less than the yaw tolerance or more than π/k; of a listed grasp, it is not its band.
     WrongSlack,
+    /// The object has no such grasp: none of its list is over this point at this yaw.
+    NoSuchGrasp,
+    /// The gripper's axis is not over the centre of a disc, or of a release not where the object is held.
+    WrongAxis,
+    /// The hand, or the stated turn, does not turn as the object does.
+    WrongTurn,
     /// A part is absent that this verdict needs.
     MissingPart,
     /// A part is there that does not go with this verdict.
@@ -82,7 +95,7 @@ pub enum FaultCode {
     NeededUnconfirmed,
     /// Time ran out before all steps were replayed.
     ReplayUnconfirmed,
-    /// The object of a step is wider than the hand opens.
+    /// The object of a step, or its grasp, is wider than the hand opens, or it has no grasp at all.
     TooWide,
     /// The object of a step was taken away before.
     AlreadyGone,
@@ -167,6 +180,9 @@ impl FaultCode {
             Self::ReleaseBlocked => "release_blocked",
             Self::TargetBlocked => "target_blocked",
             Self::WrongSlack => "wrong_slack",
+            Self::NoSuchGrasp => "no_such_grasp",
+            Self::WrongAxis => "wrong_axis",
+            Self::WrongTurn => "wrong_turn",
             Self::MissingPart => "missing_part",
             Self::UnexpectedPart => "unexpected_part",
             Self::WrongCost => "wrong_cost",

@@ -1,12 +1,14 @@
-//! How near an obstacle comes to the fingers while the yaw stays within a band.
+//! A finger's rectangle, and how near a disc comes to it while the yaw stays within a band.
 
 use core::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
-use crate::scene::{Footprint, Gripper, Opening};
+use crate::scene::{Gripper, Opening};
 
-/// One finger round an object, seen from the object's centre with the finger along +x: the rectangle
+use super::body::Body;
+
+/// One finger as it closes, seen from the gripper's axis with the finger along +x: the rectangle
 /// [inner, outer] × [−half, half], m.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finger {
@@ -16,13 +18,14 @@ pub(super) struct Finger {
 }
 
 /// The angle plus or minus whole turns, in [−π, π].
-fn wrap(angle: f64) -> f64 {
+pub(super) fn wrap(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
 impl Finger {
-    pub(super) fn new(gripper: &Gripper, grasped: &Footprint) -> Self {
-        let radius = grasped.radius();
+    /// Any finger round a disc that is grasped over its centre.
+    pub(super) fn new(gripper: &Gripper, grasped: &Body) -> Self {
+        let radius = grasped.radius;
         let open = match (gripper.opening(), gripper.max_opening()) {
             (Opening::Full, Some(width)) => width / 2.0,
             _ => radius,
@@ -58,36 +61,42 @@ impl Finger {
         libm::atan2(across, self.outer)
     }
 
-    /// How much nearer than the margin an obstacle comes to the fingers round `grasped` while the yaw is within `yaw` ± `band`
-    /// (rad), m; negative if it keeps away.
-    pub(super) fn depth(
-        &self,
-        gripper: &Gripper,
-        grasped: &Footprint,
-        obstacle: &Footprint,
-        (yaw, band): (f64, f64),
-    ) -> f64 {
-        let radius = obstacle.radius();
-        let away = self.closest(gripper, obstacle.pose().at - grasped.pose().at, yaw, band);
-        radius + gripper.margin() - away
-    }
-
-    /// The least distance (m) from any of the fingers to the point `obstacle` (relative to the object's centre) while the
-    /// yaw is within `yaw` ± `band` (rad). The least is at an end of the band, or at a nearest offset within it.
-    fn closest(&self, gripper: &Gripper, obstacle: Vector2<f64>, yaw: f64, band: f64) -> f64 {
-        let (distance, bearing) = (obstacle.norm(), libm::atan2(obstacle.y, obstacle.x));
+    /// The least distance (m) from the finger to a point at `distance` and `offset` (as above) of the axis while the yaw turns by
+    /// up to `band` (rad) to both sides. The least is at an end of the band, or at a nearest offset within it.
+    pub(super) fn closest(&self, distance: f64, offset: f64, band: f64) -> f64 {
         let nearest = self.nearest_offset(distance);
         let mut closest = f64::INFINITY;
-        for finger in 0..gripper.fingers() {
-            let offset = wrap(bearing - yaw - f64::from(finger) * gripper.period());
-            for end in [offset - band, offset + band] {
-                closest = closest.min(self.distance(distance, end));
-            }
-            if [nearest, -nearest].iter().any(|turn| wrap(turn - offset).abs() <= band) {
-                closest = closest.min(self.distance(distance, nearest));
-            }
+        for end in [offset - band, offset + band] {
+            closest = closest.min(self.distance(distance, end));
+        }
+        if [nearest, -nearest].iter().any(|turn| wrap(turn - offset).abs() <= band) {
+            closest = closest.min(self.distance(distance, nearest));
         }
         closest
+    }
+
+    /// The four corners, m.
+    pub(super) fn corners(&self) -> [Vector2<f64>; 4] {
+        let Self { inner, outer, half } = *self;
+        [[inner, -half], [outer, -half], [outer, half], [inner, half]].map(Vector2::from)
+    }
+
+    /// The outward normals of the four faces, of length 1, and how far the finger reaches along them, m.
+    pub(super) fn faces(&self) -> [(Vector2<f64>, f64); 4] {
+        let Self { inner, outer, half } = *self;
+        [([1.0, 0.0], outer), ([-1.0, 0.0], -inner), ([0.0, 1.0], half), ([0.0, -1.0], half)]
+            .map(|(normal, offset)| (normal.into(), offset))
+    }
+
+    /// The point of the finger that is nearest to `point`.
+    pub(super) fn nearest(&self, point: Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(point.x.clamp(self.inner, self.outer), point.y.clamp(-self.half, self.half))
+    }
+
+    /// The corner that is farthest against `direction`.
+    pub(super) fn corner_against(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        let x = if direction.x > 0.0 { self.inner } else { self.outer };
+        Vector2::new(x, self.half.copysign(-direction.y))
     }
 }
 
@@ -98,7 +107,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::scene::scenes::TestScene;
 
     #[test]
     fn the_distance_is_that_to_the_rectangle() {
@@ -119,10 +127,9 @@ mod tests {
             fingers in 2_u32..=12, radius in 0.01..0.3_f64, width in 0.001..0.2_f64, clearance in 0.001..0.3_f64,
             distance in 0.0..1.0_f64, bearing in -4.0..4.0_f64, yaw in -7.0..7.0_f64, band in 0.0..2.0_f64,
         ) {
-            let scene = TestScene::new(fingers).finger(width, clearance).disc("t", 0.5, 0.5, radius).build("t");
-            let finger = Finger::new(scene.gripper(), scene.object(scene.target().unwrap()).footprint());
-            let obstacle = distance * Vector2::new(libm::cos(bearing), libm::sin(bearing));
-            let closest = finger.closest(scene.gripper(), obstacle, yaw, band);
+            let finger = Finger { inner: radius, outer: radius + clearance, half: width / 2.0 };
+            let offset = |m: u32| wrap(bearing - yaw - f64::from(m) * TAU / f64::from(fingers));
+            let closest = (0..fingers).map(|m| finger.closest(distance, offset(m), band)).fold(f64::INFINITY, f64::min);
             let steps = 2000;
             let sampled = (0..=steps).map(|step| {
                 let turned = yaw + band * (f64::from(step) / f64::from(steps) * 2.0 - 1.0);

@@ -1,22 +1,29 @@
 //! The independent checker: replays a statement on the scene with its own arithmetic.
 //!
 //! It shares only the scene, the budget and the statement, with what a step costs, with the rooms that make answers. So it
-//! does not repeat a fault of geometry, knowledge, search or placement. Reading order: `replay` carries out the steps
-//! (`place`, `measure`, `finger`, `drops`); `allowed` says which objects may move at all, `yaws` and `rings` which objects block
-//! which, `ways` what can be moved then; `lock`, `chain` and `needed` build on them; `hitting` and `bound` confirm the bound;
-//! `clearing` and `most` confirm what a clearing leaves; `parts` compares the parts of the statement.
+//! does not repeat a fault of geometry, knowledge, search or placement. Reading order: `body` and `measure` say what objects cover;
+//! `finger`, `stop`, `contact`, `sweep`, `grip` and `hand` what a hand does and meets. `replay` carries out the steps (`grasping`,
+//! `place`, `drops`); `allowed` says which objects may move at all, `yaws` and `rings` which objects block which, `ways` what can
+//! be moved then; `lock`, `chain` and `needed` build on them; `hitting` and `bound` confirm the bound; `clearing` and `most` confirm
+//! what a clearing leaves; `parts` compares the parts of the statement.
 
 mod allowed;
+mod body;
 mod bound;
 mod branch;
 mod chain;
 mod clearing;
+mod contact;
 mod drops;
 mod family;
 mod fault;
 mod finger;
 mod fork;
+mod grasping;
+mod grip;
+mod hand;
 mod hitting;
+mod leaning;
 mod lock;
 mod measure;
 mod most;
@@ -28,6 +35,10 @@ mod parts;
 mod place;
 mod replay;
 mod rings;
+#[cfg(test)]
+mod shapes;
+mod stop;
+mod sweep;
 mod terms;
 mod ways;
 mod yaws;
@@ -45,10 +56,11 @@ use allowed::Allowed;
 use chain::Chain;
 use clearing::Clearing;
 use fault::Faults;
+use leaning::Leaning;
 use names::ObjectNames;
 use near::{Places, Tree};
 use replay::Replayed;
-use rings::{Leaning, Rings};
+use rings::Rings;
 
 /// How far a stated answer may be off, m for lengths and rad for slack. Coordinates reach 1e5 m, where a double resolves
 /// 1.5e-11 m; a distance made of a few of them is good to about 1e-10 m, and no arm notices ten times that. Touching is

@@ -9,11 +9,12 @@ use std::rc::Rc;
 use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
-use crate::scene::{COORDINATE_RANGE, Footprint, ObjectIndex, Scene};
-use crate::statement::Step;
+use crate::scene::{COORDINATE_RANGE, Grasps, ObjectIndex, Scene};
+use crate::statement::{StatedPose, Step};
 
 use super::allowed::Allowed;
-use super::measure::{away, extent, gap};
+use super::body::Body;
+use super::measure::{away, gap};
 use super::names::ObjectNames;
 
 /// The number of a place. At the start, the n-th object stands on place n.
@@ -61,18 +62,18 @@ impl Standing {
     }
 }
 
-/// Footprints by nearness.
+/// Bodies by nearness.
 pub(super) struct Tree {
-    footprints: Vec<Footprint>,
+    bodies: Vec<Body>,
     boxes: Vec<Bounds>,
-    /// Numbers of footprints, so that each box holds a run of them.
+    /// Numbers of bodies, so that each box holds a run of them.
     order: Vec<usize>,
 }
 
 struct Bounds {
     min: Point2<f64>,
     max: Point2<f64>,
-    /// How far the footprints reach from their origins, at most, m.
+    /// How far the bodies reach from their origins, at most, m.
     extent: f64,
     run: core::ops::Range<usize>,
     children: Option<[usize; 2]>,
@@ -81,10 +82,31 @@ struct Bounds {
 /// Places in a box that is not divided further.
 const LEAF: usize = 8;
 
-/// True if doubles resolve the coordinates well enough. A plan outside this range is on no table.
-pub(super) fn resolvable(point: Point2<f64>) -> bool {
+/// The largest yaw whose digits still resolve 1e-9 rad after reduction modulo whole turns.
+pub(super) const MAX_YAW: f64 = 1e6;
+
+/// True if doubles resolve the coordinates well enough, and the yaw if there is one. A plan outside this range is on no table.
+pub(super) fn resolvable(pose: StatedPose) -> bool {
     let (min, max) = (10.0 * COORDINATE_RANGE.0, 10.0 * COORDINATE_RANGE.1);
-    (min..=max).contains(&point.x) && (min..=max).contains(&point.y)
+    let yaw = pose.yaw.is_none_or(|yaw| yaw.abs() <= MAX_YAW);
+    (min..=max).contains(&pose.at.x) && (min..=max).contains(&pose.at.y) && yaw
+}
+
+/// True if a stated pose says all of where the object is to stand.
+fn is_place(scene: &Scene, object: ObjectIndex, to: StatedPose) -> bool {
+    resolvable(to) && (to.yaw.is_some() || at_every_yaw(scene, object))
+}
+
+/// True for an object whose own yaw is of no account.
+pub(super) fn at_every_yaw(scene: &Scene, object: ObjectIndex) -> bool {
+    *scene.object(object).grasps() == Grasps::EveryYaw
+}
+
+/// True if the edge of a body is nearer to a point than `reach`, m.
+fn comes_within(body: &Body, point: Point2<f64>, reach: f64) -> bool {
+    // The square costs less than a distance to all sides.
+    let far = reach + body.extent;
+    (body.is_disc() || (body.pose.at - point).norm_squared() < far * far) && away(body, point) < reach
 }
 
 impl Places {
@@ -96,29 +118,35 @@ impl Places {
         names: &ObjectNames<'_>,
         allowed: &Allowed<'_>,
     ) -> Self {
-        let (mut footprints, mut owners) = (Vec::new(), Vec::new());
+        let (mut bodies, mut owners) = (Vec::new(), Vec::new());
         let of_steps = steps.iter().map(|step| {
             let (object, to) = (names.find(step.object())?, step.rests_at()?);
             let liftable = allowed.graspable(object) && !scene.goal().is_candidate(object);
-            (liftable && resolvable(to.at)).then(|| {
-                footprints.push(scene.object(object).footprint().moved_to(to.into()));
+            let pose = if at_every_yaw(scene, object) { to.at.into() } else { to.into() };
+            (liftable && is_place(scene, object, to)).then(|| {
+                bodies.push(Body::new(scene.object(object).footprint().shape(), pose));
                 owners.push(object);
-                PlaceIndex(start.footprints.len() + footprints.len() - 1)
+                PlaceIndex(start.bodies.len() + bodies.len() - 1)
             })
         });
         let of_steps = of_steps.collect();
-        Self { start: Rc::clone(start), steps: Tree::new(footprints), owners, of_steps }
+        Self { start: Rc::clone(start), steps: Tree::new(bodies), owners, of_steps }
     }
 
     /// What stands on a place.
-    pub(super) fn footprint(&self, PlaceIndex(place): PlaceIndex) -> &Footprint {
-        let start = &self.start.footprints;
-        start.get(place).unwrap_or_else(|| &self.steps.footprints[place - start.len()])
+    pub(super) fn body(&self, PlaceIndex(place): PlaceIndex) -> &Body {
+        let start = &self.start.bodies;
+        start.get(place).unwrap_or_else(|| &self.steps.bodies[place - start.len()])
+    }
+
+    /// An object where it stands at the start.
+    pub(super) fn at_start(&self, object: ObjectIndex) -> &Body {
+        self.start.body(object.get())
     }
 
     /// The object that belongs to the place.
     pub(super) fn owner(&self, PlaceIndex(place): PlaceIndex) -> ObjectIndex {
-        place.checked_sub(self.start.footprints.len()).map_or_else(|| ObjectIndex::new(place), |step| self.owners[step])
+        place.checked_sub(self.start.bodies.len()).map_or_else(|| ObjectIndex::new(place), |step| self.owners[step])
     }
 
     /// The new place of a step, if it can be carried out.
@@ -129,27 +157,32 @@ impl Places {
     /// Visit every place whose object comes nearer than `reach` to `centre` (edge to point, m).
     pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(PlaceIndex)) {
         self.start.within(centre, reach, |at| visit(PlaceIndex(at)));
-        self.steps.within(centre, reach, |at| visit(PlaceIndex(self.start.footprints.len() + at)));
+        self.steps.within(centre, reach, |at| visit(PlaceIndex(self.start.bodies.len() + at)));
     }
 
-    /// The least gap from `footprint` to an object on a place that `counts`, m; infinite if there is none.
-    pub(super) fn least_gap(&self, footprint: &Footprint, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
-        let at_start = self.start.least_gap(footprint, |at| counts(PlaceIndex(at)));
-        at_start.min(self.steps.least_gap(footprint, |at| counts(PlaceIndex(self.start.footprints.len() + at))))
+    /// The least gap from `body` to an object on a place that `counts`, m; infinite if there is none.
+    pub(super) fn least_gap(&self, body: &Body, counts: impl Fn(PlaceIndex) -> bool) -> f64 {
+        let at_start = self.start.least_gap(body, |at| counts(PlaceIndex(at)));
+        at_start.min(self.steps.least_gap(body, |at| counts(PlaceIndex(self.start.bodies.len() + at))))
     }
 }
 
 impl Tree {
-    pub(super) fn new(footprints: Vec<Footprint>) -> Self {
-        let order = (0..footprints.len()).collect();
-        let mut tree = Self { footprints, boxes: Vec::new(), order };
+    pub(super) fn new(bodies: Vec<Body>) -> Self {
+        let order = (0..bodies.len()).collect();
+        let mut tree = Self { bodies, boxes: Vec::new(), order };
         tree.divide(0..tree.order.len());
         tree
     }
 
     /// The objects of a scene at their places at the start: the n-th is the n-th object's.
     pub(super) fn of_start(scene: &Scene) -> Rc<Self> {
-        Rc::new(Self::new(scene.objects().iter().map(|object| object.footprint().clone()).collect()))
+        Rc::new(Self::new(scene.objects().iter().map(|object| Body::of(object.footprint())).collect()))
+    }
+
+    /// The n-th body.
+    pub(super) fn body(&self, at: usize) -> &Body {
+        &self.bodies[at]
     }
 
     /// Box the run and divide it at the median of its longer side. Returns the box's number. The depth is logarithmic
@@ -160,7 +193,7 @@ impl Tree {
         let at = self.boxes.len();
         self.boxes.push(bounds);
         if run.len() > LEAF {
-            let place = |one: &usize| self.footprints[*one].pose().at;
+            let place = |one: &usize| self.bodies[*one].pose.at;
             let key = |one: &usize| if wide { place(one).x } else { place(one).y };
             let half = run.len() / 2;
             self.order[run.clone()].select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
@@ -174,15 +207,15 @@ impl Tree {
         let (far, near) =
             (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
         let mut bounds = Bounds { min: far, max: near, extent: 0.0, run: run.clone(), children: None };
-        for footprint in self.order[run].iter().map(|&at| &self.footprints[at]) {
-            bounds.min = bounds.min.inf(&footprint.pose().at);
-            bounds.max = bounds.max.sup(&footprint.pose().at);
-            bounds.extent = bounds.extent.max(extent(footprint));
+        for body in self.order[run].iter().map(|&at| &self.bodies[at]) {
+            bounds.min = bounds.min.inf(&body.pose.at);
+            bounds.max = bounds.max.sup(&body.pose.at);
+            bounds.extent = bounds.extent.max(body.extent);
         }
         bounds
     }
 
-    /// Visit every footprint that comes nearer than `reach` to `centre` (edge to point, m).
+    /// Visit every body that comes nearer than `reach` to `centre` (edge to point, m).
     pub(super) fn within(&self, centre: Point2<f64>, reach: f64, mut visit: impl FnMut(usize)) {
         let mut open: SmallVec<[usize; 32]> = SmallVec::from_slice(&[0]);
         while let Some(at) = open.pop() {
@@ -195,16 +228,16 @@ impl Tree {
                 continue;
             }
             for &at in &self.order[bounds.run.clone()] {
-                if away(&self.footprints[at], centre) < reach {
+                if comes_within(&self.bodies[at], centre, reach) {
                     visit(at);
                 }
             }
         }
     }
 
-    /// The least gap from `footprint` to one that `counts`, m; infinite if there is none.
-    fn least_gap(&self, footprint: &Footprint, counts: impl Fn(usize) -> bool) -> f64 {
-        let (origin, own) = (footprint.pose().at, extent(footprint));
+    /// The least gap from `body` to one that `counts`, m; infinite if there is none.
+    fn least_gap(&self, body: &Body, counts: impl Fn(usize) -> bool) -> f64 {
+        let (origin, own) = (body.pose.at, body.extent);
         let mut least = f64::INFINITY;
         let mut open: SmallVec<[(usize, f64); 32]> = SmallVec::from_slice(&[(0, f64::NEG_INFINITY)]);
         while let Some((at, bound)) = open.pop() {
@@ -220,7 +253,7 @@ impl Tree {
                 continue;
             }
             for &at in self.order[bounds.run.clone()].iter().filter(|at| counts(**at)) {
-                least = least.min(gap(footprint, &self.footprints[at]));
+                least = least.min(gap(body, &self.bodies[at]));
             }
         }
         least
@@ -228,7 +261,7 @@ impl Tree {
 }
 
 impl Bounds {
-    /// No footprint with its origin in the box has its edge nearer to the point than this, m.
+    /// No body with its origin in the box has its edge nearer to the point than this, m.
     fn least_gap(&self, point: Point2<f64>) -> f64 {
         let outside = Vector2::new(
             (self.min.x - point.x).max(point.x - self.max.x).max(0.0),
@@ -241,6 +274,7 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Footprint;
     use crate::scene::scenes::TestScene;
 
     fn crowd() -> Scene {
@@ -263,12 +297,11 @@ mod tests {
             let mut found = Vec::new();
             start.within(centre, reach, |at| found.push(at));
             found.sort_unstable();
-            let scan =
-                scene.objects().iter().enumerate().filter(|(_, object)| away(object.footprint(), centre) < reach);
+            let scan = start.bodies.iter().enumerate().filter(|(_, body)| away(body, centre) < reach);
             assert_eq!(found, scan.map(|(at, _)| at).collect::<Vec<_>>());
-            let probe = Footprint::disc(centre, 0.001);
+            let probe = Body::of(&Footprint::disc(centre, 0.001));
             let least = start.least_gap(&probe, |at| at % 3 == 0);
-            let scan = scene.objects().iter().step_by(3).map(|object| gap(&probe, object.footprint()));
+            let scan = start.bodies.iter().step_by(3).map(|body| gap(&probe, body));
             let scan = scan.fold(f64::INFINITY, f64::min);
             assert!(least == scan || (least - scan).abs() < 1e-12, "{least} {scan}");
         }

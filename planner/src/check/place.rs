@@ -3,11 +3,12 @@
 use core::cell::Cell;
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Footprint, ObjectIndex, Rectangle, Scene};
+use crate::scene::{ObjectIndex, Rectangle, Scene};
 
 use super::TOLERANCE;
+use super::body::Body;
 use super::fault::{FaultCode, Faults, figure};
-use super::measure::{extent, gap, intrusion, overhang};
+use super::measure::{gap, intrusion, overhang};
 use super::near::{PlaceIndex, Places, Standing};
 
 /// An object about to be set down, while the others stand on `standing`.
@@ -17,7 +18,7 @@ pub(super) struct Landing<'a> {
     pub(super) standing: &'a Standing,
     pub(super) step: usize,
     pub(super) object: ObjectIndex,
-    pub(super) to: &'a Footprint,
+    pub(super) to: &'a Body,
 }
 
 impl Landing<'_> {
@@ -74,16 +75,17 @@ impl Landing<'_> {
     fn clear(&self, faults: &mut Faults, ticker: &mut Ticker<'_>) -> Result<(), Interrupted> {
         let margin = self.scene.gripper().margin();
         let mut visited = 0;
-        self.places.within(self.to.pose().at, extent(self.to) + margin, |place| {
+        self.places.within(self.to.pose.at, self.to.extent + margin, |place| {
             visited += 1;
             if !self.taken(place) {
                 return;
             }
-            let other = self.scene.object(self.places.owner(place));
-            let first = gap(self.scene.object(self.object).footprint(), other.footprint());
-            let (real, asked) = (gap(self.to, self.places.footprint(place)), margin.min(first).max(0.0));
+            let other = self.places.owner(place);
+            let first = gap(self.places.at_start(self.object), self.places.at_start(other));
+            let (real, asked) = (gap(self.to, self.places.body(place)), margin.min(first).max(0.0));
             if real < asked - TOLERANCE {
-                let detail = || format!("stands {real:.9} m from '{}' where {asked:.9} m are asked", other.id());
+                let id = self.scene.object(other).id();
+                let detail = || format!("stands {real:.9} m from '{id}' where {asked:.9} m are asked");
                 faults.of_step(FaultCode::TooClose, self.step, self.id(), detail);
             }
         });

@@ -1,26 +1,22 @@
 //! Replays the steps in order and checks every grasp, every release and every new place.
 
-use core::f64::consts::PI;
-
-use nalgebra::Point2;
-
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Footprint, Goal, ObjectIndex, Scene};
-use crate::statement::{PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
+use crate::scene::{Goal, Grasps, ObjectIndex, Scene};
+use crate::statement::{PickDrop, PickPlace, StatedPose, Statement, Step, Verdict};
 
 use super::TOLERANCE;
 use super::allowed::{Allowed, may_drop, only_drops};
+use super::body::Body;
 use super::drops::Drops;
-use super::fault::{FaultCode, Faults, figure};
-use super::finger::Finger;
+use super::fault::{FaultCode, Faults, figure, point};
+use super::finger::wrap;
+use super::grasping::Grasping;
+use super::grip::band_of;
 use super::measure::apart;
 use super::names::ObjectNames;
 use super::near::{Places, Standing, resolvable};
 use super::place::Landing;
 use super::terms::Terms;
-
-/// The largest yaw whose digits still resolve 1e-9 rad after reduction modulo whole turns.
-const MAX_YAW: f64 = 1e6;
 
 struct Replay<'a> {
     scene: &'a Scene,
@@ -82,7 +78,7 @@ fn reaches_goal(statement: &Statement) -> bool {
     }
 }
 
-impl Replay<'_> {
+impl<'a> Replay<'a> {
     fn run(&mut self, statement: &Statement, done: &mut usize) -> Result<(), Interrupted> {
         for (at, step) in statement.steps().iter().enumerate() {
             self.noting(at, |replay| match step {
@@ -141,7 +137,8 @@ impl Replay<'_> {
     ) -> Result<(), Interrupted> {
         match (target, statement.target_grasp) {
             (Some(target), Some(grasp)) => {
-                self.grasp(FaultCode::TargetBlocked, None, target, &self.footprint(target).clone(), grasp)?;
+                let body = self.body(target);
+                self.grasping(None, target).grasp(FaultCode::TargetBlocked, body, grasp)?;
             }
             (None, Some(_)) if statement.target.is_none() => {
                 self.faults.of_answer(FaultCode::MissingPart, || "a target_grasp needs its target".into());
@@ -159,9 +156,12 @@ impl Replay<'_> {
         let Some(object) = self.names.known(&step.object, Some(at), self.faults) else { return Ok(()) };
         let liftable = self.liftable(at, object);
         let Some(to) = self.places.of_step(at) else {
-            if !resolvable(step.to.at) {
-                let detail = || "the new place is no place on a table".to_owned();
-                self.faults.of_step(FaultCode::NumberOutOfRange, at, &step.object, detail);
+            if liftable {
+                let (code, why) = match resolvable(step.to) {
+                    true => (FaultCode::MissingPart, "the new place needs a yaw"),
+                    false => (FaultCode::NumberOutOfRange, "the new place is no place on a table"),
+                };
+                self.faults.of_step(code, at, &step.object, || why.to_owned());
             }
             return Ok(());
         };
@@ -174,13 +174,13 @@ impl Replay<'_> {
         if let Some(from) = step.from {
             self.stands_as_stated(at, object, from);
         }
-        self.grasp(FaultCode::GraspBlocked, Some(at), object, &self.footprint(object).clone(), step.grasp)?;
-        let place = self.places.footprint(to).clone();
+        let (from, place) = (self.body(object), self.places.body(to));
+        let held = self.grasping(Some(at), object).grasp(FaultCode::GraspBlocked, from, step.grasp)?;
         let (scene, places, standing) = (self.scene, self.places, &self.standing);
-        let landing = Landing { scene, places, standing, step: at, object, to: &place };
+        let landing = Landing { scene, places, standing, step: at, object, to: place };
         let gap = step.gap.filter(|_| self.terms.exact());
         landing.check(gap, self.faults, &mut self.ticker)?;
-        self.grasp(FaultCode::ReleaseBlocked, Some(at), object, &place, step.release)?;
+        self.grasping(Some(at), object).release((held, step), (from, place))?;
         self.standing.put(object, to);
         Ok(())
     }
@@ -197,7 +197,8 @@ impl Replay<'_> {
         if let Some(from) = step.from {
             self.stands_as_stated(at, object, from);
         }
-        self.grasp(FaultCode::GraspBlocked, Some(at), object, &self.footprint(object).clone(), step.grasp)?;
+        let body = self.body(object);
+        self.grasping(Some(at), object).grasp(FaultCode::GraspBlocked, body, step.grasp)?;
         self.drops.take(self.scene, self.allowed, at, object, &step.drop_off, self.faults);
         self.standing.take_away(object);
         Ok(())
@@ -225,80 +226,33 @@ impl Replay<'_> {
         false
     }
 
-    fn footprint(&self, object: ObjectIndex) -> &Footprint {
-        self.places.footprint(self.standing.place(object))
+    /// The object where it stands now.
+    fn body(&self, object: ObjectIndex) -> &'a Body {
+        self.places.body(self.standing.place(object))
+    }
+
+    fn grasping(&mut self, step: Option<usize>, object: ObjectIndex) -> Grasping<'_, 'a> {
+        let Self { scene, places, standing, terms, faults, ticker, .. } = self;
+        Grasping { scene, places, standing, terms, step, object, faults, ticker }
     }
 
     fn stands_as_stated(&mut self, at: usize, object: ObjectIndex, stated: StatedPose) {
-        let real = self.footprint(object).pose();
+        let real = self.body(object).pose;
+        let mut wrong = |detail: String| {
+            self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), || detail);
+        };
         // NaN agrees with nothing.
         let agrees = apart(real, stated) <= TOLERANCE + self.terms.position_tolerance;
         if !agrees {
-            let detail = || format!("stands at {}, not at {}", point(real.at), point(stated.at));
-            self.faults.of_step(FaultCode::WrongFrom, at, self.scene.object(object).id(), detail);
+            wrong(format!("stands at {}, not at {}", point(real.at), point(stated.at)));
+        }
+        let (Grasps::Listed(list), Some(yaw)) = (self.scene.object(object).grasps(), stated.yaw) else { return };
+        // What is seen a little beside its place may be turned a little too: as far as its grasps forgive.
+        let forgiven = list.iter().map(|grasp| band_of(grasp, self.scene.gripper())).fold(0.0, f64::max);
+        let tolerance = if self.terms.exact() { TOLERANCE } else { forgiven.max(TOLERANCE) };
+        let agrees = wrap(yaw - real.yaw).abs() <= tolerance;
+        if !agrees {
+            wrong(format!("stands at yaw {}, not at yaw {}", figure(real.yaw), figure(yaw)));
         }
     }
-
-    /// The band of yaws (rad, on each side) that must be free, if the figures are valid.
-    fn band(&mut self, step: Option<usize>, object: ObjectIndex, grasp: StatedGrasp) -> Option<f64> {
-        let (id, gripper) = (self.scene.object(object).id(), self.scene.gripper());
-        let stated = grasp.slack.filter(|_| self.terms.exact());
-        let slack = stated.unwrap_or(0.0);
-        if !(grasp.yaw.abs() <= MAX_YAW && slack.is_finite()) {
-            let detail = || format!("yaw {:e} with slack {slack:e} can't be resolved", grasp.yaw);
-            self.faults.add(FaultCode::NumberOutOfRange, step, Some(id), detail);
-            return None;
-        }
-        let (least, most) = (gripper.yaw_tolerance(), PI / f64::from(gripper.fingers()));
-        // Without obstacles the slack is π/k even if the tolerance is more.
-        let in_range = (least.min(most) - TOLERANCE..=most + TOLERANCE).contains(&slack);
-        if stated.is_some() && !in_range {
-            let detail = || format!("slack {} is not between {least:.9} and {most:.9} rad", figure(slack));
-            self.faults.add(FaultCode::WrongSlack, step, Some(id), detail);
-        }
-        Some(slack.clamp(least, most.max(least)))
-    }
-
-    /// The fingers round `grasped` meet no other object at any yaw of the band. Names the obstacle that they go deepest into.
-    fn grasp(
-        &mut self,
-        code: FaultCode,
-        step: Option<usize>,
-        object: ObjectIndex,
-        grasped: &Footprint,
-        grasp: StatedGrasp,
-    ) -> Result<(), Interrupted> {
-        let Some(band) = self.band(step, object, grasp) else { return Ok(()) };
-        let gripper = self.scene.gripper();
-        let finger = Finger::new(gripper, grasped);
-        let (mut near, mut visited) = (Vec::new(), 0);
-        self.places.within(grasped.pose().at, finger.corner_distance() + gripper.margin(), |place| {
-            visited += 1;
-            let owner = self.places.owner(place);
-            if owner != object && self.standing.place(owner) == place {
-                near.push(owner);
-            }
-        });
-        self.ticker.step(visited / 16)?;
-        let mut worst: Option<(f64, ObjectIndex)> = None;
-        for owner in near {
-            self.ticker.step(1)?;
-            let depth = finger.depth(gripper, grasped, self.footprint(owner), (grasp.yaw, band));
-            if depth > TOLERANCE && worst.is_none_or(|(deepest, _)| depth > deepest) {
-                worst = Some((depth, owner));
-            }
-        }
-        if let Some((depth, by)) = worst {
-            let (id, by) = (self.scene.object(object).id(), self.scene.object(by).id());
-            let detail = || {
-                format!("a finger comes {depth:.9} m too near to '{by}' at yaw {} ± {band:.9} rad", figure(grasp.yaw))
-            };
-            self.faults.add(code, step, Some(id), detail);
-        }
-        Ok(())
-    }
-}
-
-fn point(at: Point2<f64>) -> String {
-    format!("({}, {})", figure(at.x), figure(at.y))
 }

@@ -2,61 +2,63 @@
 
 use std::rc::Rc;
 
+use nalgebra::Point2;
+
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{ObjectIndex, Scene};
+use crate::scene::{Grasps, ListedGrasp, ObjectIndex, Scene};
 
+use super::body::Body;
 use super::finger::Finger;
+use super::grip::Hold;
+use super::hand::Hand;
+use super::leaning::Leaning;
 use super::near::Tree;
-use super::yaws::blocked_by;
-
-/// How a case is decided that rounding leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Leaning {
-    /// As blocked: for claims that an object can't be grasped (locks, landmarks).
-    Blocked,
-    /// As free: for claims that an object can be grasped (needed objects).
-    Free,
-}
+use super::yaws::{LENGTH_LEANING, all, blocked_by};
 
 /// Added to the least width of a free interval, or subtracted, by leaning, rad. Two ways to compute an interval's end
 /// differ by less.
 const WIDTH_LEANING: f64 = 1e-10;
-/// Added to an obstacle's radius, or subtracted, by leaning, as a share of the lengths involved. Where a circle is only
-/// just touched, the last digit decides between no shadow and one of 1e-8 rad; this is far above the last digit and far
-/// below `WIDTH_LEANING`.
-const LENGTH_LEANING: f64 = 1e-12;
-
-impl Leaning {
-    fn sign(self) -> f64 {
-        match self {
-            Self::Blocked => 1.0,
-            Self::Free => -1.0,
-        }
-    }
-}
-
 /// An interval of yaws that one obstacle blocks.
-struct Shade {
+pub(super) struct Shade {
     lo: f64,
     hi: f64,
     by: ObjectIndex,
 }
 
-/// The blocked yaws of one object at the start.
-pub(super) struct Ring {
-    /// Sorted by `lo`.
-    shades: Vec<Shade>,
+/// A listed grasp at the start.
+pub(super) struct Listed {
+    /// The direction of finger 0, rad.
+    yaw: f64,
+    /// The obstacles that block it.
+    by: Vec<ObjectIndex>,
+}
+
+/// What blocks the grasps of one object at the start.
+pub(super) enum Ring {
+    /// Of one that may be grasped at every yaw: the blocked yaws, sorted by where they begin.
+    EveryYaw(Vec<Shade>),
+    /// Of one with listed grasps: those that are not too wide.
+    Listed(Vec<Listed>),
 }
 
 impl Ring {
-    /// The number of intervals.
-    pub(super) fn len(&self) -> usize {
-        self.shades.len()
+    fn parts(&self) -> (&[Shade], &[Listed]) {
+        match self {
+            Self::EveryYaw(shades) => (shades, &[]),
+            Self::Listed(grasps) => (&[], grasps),
+        }
     }
 
-    /// The obstacles that block some yaw, once for each interval.
+    /// The number of intervals, or of obstacles of all grasps.
+    pub(super) fn len(&self) -> usize {
+        let (shades, grasps) = self.parts();
+        shades.len() + grasps.iter().map(|grasp| grasp.by.len()).sum::<usize>()
+    }
+
+    /// The obstacles that block some grasp, once for each grasp or interval.
     pub(super) fn blockers(&self) -> impl Iterator<Item = ObjectIndex> + '_ {
-        self.shades.iter().map(|shade| shade.by)
+        let (shades, grasps) = self.parts();
+        shades.iter().map(|shade| shade.by).chain(grasps.iter().flat_map(|grasp| grasp.by.iter().copied()))
     }
 }
 
@@ -103,30 +105,101 @@ impl<'s> Rings<'s> {
     }
 
     fn make(&self, object: ObjectIndex, ticker: &mut Ticker<'_>) -> Result<Ring, Interrupted> {
-        let (gripper, grasped) = (self.scene.gripper(), self.scene.object(object).footprint());
-        let finger = Finger::new(gripper, grasped);
-        let reach = (finger.corner_distance() + gripper.margin()) * (1.0 + 4.0 * LENGTH_LEANING);
-        let mut near = Vec::new();
-        self.start.within(grasped.pose().at, reach, |at| near.push(ObjectIndex::new(at)));
         ticker.step(1)?;
+        let (stated, body) = (self.scene.object(object), self.start.body(object.get()));
+        let hand = Hand::at(stated, self.scene.gripper(), self.leaning);
+        match stated.grasps() {
+            Grasps::EveryYaw => self.every_yaw(object, body, &hand, ticker).map(Ring::EveryYaw),
+            Grasps::Listed(list) => self.listed(object, (body, list), &hand, ticker).map(Ring::Listed),
+        }
+    }
+
+    /// The other objects that come nearer than `reach` to a point (edge to point, m), in order.
+    fn near(&self, object: ObjectIndex, at: Point2<f64>, reach: f64) -> Vec<ObjectIndex> {
+        let mut near = Vec::new();
+        self.start.within(at, reach, |at| near.push(ObjectIndex::new(at)));
+        near.retain(|by| *by != object);
+        near
+    }
+
+    fn every_yaw(
+        &self,
+        object: ObjectIndex,
+        body: &Body,
+        hand: &Hand,
+        ticker: &mut Ticker<'_>,
+    ) -> Result<Vec<Shade>, Interrupted> {
+        let (gripper, at) = (self.scene.gripper(), body.pose.at);
+        let finger = Finger::new(gripper, body);
+        let reach = (finger.corner_distance() + gripper.margin()).max(hand.span()) * (1.0 + 4.0 * LENGTH_LEANING);
         let mut shades = Vec::new();
-        for by in near.into_iter().filter(|by| *by != object) {
+        for by in self.near(object, at, reach) {
             ticker.step(1)?;
-            let obstacle = self.scene.object(by).footprint();
-            let leaning = self.leaning.sign() * LENGTH_LEANING;
-            let yaws = blocked_by(obstacle, &finger, grasped, gripper, leaning);
+            let (obstacle, other) = (self.scene.object(by), self.start.body(by.get()));
+            let yaws = if self.under_palm(hand, by, at) {
+                all(gripper)
+            } else if hand.fingers_reach(obstacle) {
+                blocked_by(other, &finger, body, gripper, self.leaning)
+            } else {
+                continue;
+            };
             shades.extend(yaws.into_iter().map(|[lo, hi]| Shade { lo, hi, by }));
         }
         shades.sort_unstable_by(|a, b| a.lo.total_cmp(&b.lo).then(a.by.cmp(&b.by)));
-        Ok(Ring { shades })
+        Ok(shades)
     }
 
-    /// The middle of the widest free interval of yaws (rad, in one period from 0), counting only obstacles for which
-    /// `stands` is true. `None` if no interval is wide enough. Where nothing blocks, every yaw is free, whatever the
-    /// tolerance.
+    fn listed(
+        &self,
+        object: ObjectIndex,
+        (body, list): (&Body, &[ListedGrasp]),
+        hand: &Hand,
+        ticker: &mut Ticker<'_>,
+    ) -> Result<Vec<Listed>, Interrupted> {
+        let (gripper, shape) = (self.scene.gripper(), self.scene.object(object).footprint().shape());
+        let mut grasps = Vec::with_capacity(list.len());
+        for grasp in list {
+            ticker.step(4)?;
+            let hold = Hold::new(shape, grasp, gripper, self.leaning);
+            if hold.too_wide {
+                continue;
+            }
+            let grip = hold.of(body, gripper);
+            let reach = (grip.span() + gripper.margin()).max(hand.span());
+            let mut by = self.near(object, grip.axis, reach);
+            ticker.step(by.len())?;
+            by.retain(|by| {
+                let (obstacle, other) = (self.scene.object(*by), self.start.body(by.get()));
+                let rho = self.leaning.to_keep(other.radius + gripper.margin());
+                self.under_palm(hand, *by, grip.axis) || (hand.fingers_reach(obstacle) && grip.comes_near(other, rho))
+            });
+            grasps.push(Listed { yaw: grip.yaw, by });
+        }
+        Ok(grasps)
+    }
+
+    /// True if the palm meets an obstacle, in favour of the claim.
+    fn under_palm(&self, hand: &Hand, by: ObjectIndex, axis: Point2<f64>) -> bool {
+        let depth = hand.under_palm(self.scene.object(by), self.start.body(by.get()), axis);
+        depth.is_some_and(|depth| self.leaning.to_keep(depth) > 0.0)
+    }
+
+    /// The yaw of some free grasp of the object whose ring this is (rad, in one period from 0 where every yaw will do), counting only
+    /// obstacles for which `stands` is true.
     pub(super) fn free_yaw(&self, ring: &Ring, stands: impl Fn(ObjectIndex) -> bool) -> Option<f64> {
+        match ring {
+            Ring::EveryYaw(shades) => self.widest(shades, stands),
+            Ring::Listed(grasps) => {
+                grasps.iter().find(|grasp| !grasp.by.iter().any(|by| stands(*by))).map(|grasp| grasp.yaw)
+            }
+        }
+    }
+
+    /// The middle of the widest free interval of yaws. `None` if no interval is wide enough. Where nothing blocks, every yaw is
+    /// free, whatever the tolerance.
+    fn widest(&self, shades: &[Shade], stands: impl Fn(ObjectIndex) -> bool) -> Option<f64> {
         let gripper = self.scene.gripper();
-        let mut shades = ring.shades.iter().filter(|shade| stands(shade.by));
+        let mut shades = shades.iter().filter(|shade| stands(shade.by));
         let Some(first) = shades.next() else { return Some(0.0) };
         let (mut covered, mut widest, mut ends) = (first.hi, 0.0_f64, 0.0);
         let mut interval = |covered: f64, lo: f64| {
@@ -151,18 +224,17 @@ mod tests {
 
     use super::*;
     use crate::budget::Budget;
+    use crate::check::grip::Grip;
     use crate::scene::scenes::TestScene;
 
     /// True if some sampled yaw has `band` rad on each side free of every other disc, judged by distance.
     fn some_band_is_free(scene: &Scene, band: f64) -> bool {
-        let (gripper, target) = (scene.gripper(), scene.object(scene.target().unwrap()).footprint());
-        let finger = Finger::new(gripper, target);
+        let (gripper, start) = (scene.gripper(), Tree::of_start(scene));
         (0..500).any(|sample| {
             let yaw = gripper.period() * f64::from(sample) / 500.0;
-            scene
-                .indices()
-                .filter(|object| Some(*object) != scene.target())
-                .all(|object| finger.depth(gripper, target, scene.object(object).footprint(), (yaw, band)) <= 0.0)
+            let grip = Grip::centred(start.body(scene.target().unwrap().get()), gripper, (yaw, band));
+            let others = scene.indices().filter(|object| Some(*object) != scene.target());
+            others.map(|object| start.body(object.get())).all(|other| !grip.comes_near(other, other.radius))
         })
     }
 

@@ -1,4 +1,5 @@
-//! The yaws that one obstacle blocks, found by cutting a circle with an outline.
+//! The yaws that one obstacle blocks round a disc, found by cutting a circle with an outline; of an obstacle with a core by
+//! marching ([`super::sweep`]).
 //!
 //! Seen from the grasped object, with the finger along +x, the obstacle's centre runs on a circle while the yaw turns. It
 //! blocks while it is inside the finger grown by ρ: a rectangle with rounded corners. Every angle at which the circle can
@@ -10,8 +11,17 @@ use core::f64::consts::PI;
 use nalgebra::Vector2;
 use smallvec::SmallVec;
 
+use crate::scene::Gripper;
+
+use super::body::Body;
 use super::finger::Finger;
-use crate::scene::{Footprint, Gripper};
+use super::leaning::Leaning;
+use super::sweep::Sweep;
+
+/// Added to a disc's radius, or subtracted, by leaning, as a share of the lengths involved. Where a circle is only just touched,
+/// the last digit decides between no shadow and one of 1e-8 rad; this is far above the last digit and far below the leaning of an
+/// interval's width.
+pub(super) const LENGTH_LEANING: f64 = 1e-12;
 
 /// A closed interval of yaws within [0, period], rad.
 pub(super) type Interval = [f64; 2];
@@ -67,18 +77,31 @@ fn blocked_offsets(finger: &Finger, distance: f64, rho: f64) -> Intervals {
     blocked
 }
 
-/// The yaws at which `obstacle` blocks a grasp of `grasped`. The distance to keep is lengthened by `leaning` times the lengths
-/// involved.
+/// The yaws at which `obstacle` blocks a grasp of the disc `grasped`, in favour of a claim.
 pub(super) fn blocked_by(
-    obstacle: &Footprint,
+    obstacle: &Body,
     finger: &Finger,
-    grasped: &Footprint,
+    grasped: &Body,
     gripper: &Gripper,
-    leaning: f64,
+    leaning: Leaning,
 ) -> Intervals {
-    let radius = obstacle.radius();
-    let (rho, apart) = (radius + gripper.margin(), obstacle.pose().at - grasped.pose().at);
-    blocked_yaws(finger, gripper.period(), apart, rho + leaning * (rho + apart.norm()))
+    let (rho, apart) = (obstacle.radius + gripper.margin(), obstacle.pose.at - grasped.pose.at);
+    if obstacle.is_disc() {
+        let longer = leaning.sign() * LENGTH_LEANING;
+        return blocked_yaws(finger, gripper.period(), apart, rho + longer * (rho + apart.norm()));
+    }
+    // From the far side on, where most likely nothing is blocked.
+    let base = libm::atan2(-apart.y, -apart.x);
+    let mut yaws = Intervals::new();
+    for [lo, hi] in Sweep::new(finger, grasped.pose.at, base, obstacle).blocked(leaning.to_keep(rho)) {
+        fold(&mut yaws, base + lo, hi - lo, gripper.period());
+    }
+    yaws
+}
+
+/// Every yaw.
+pub(super) fn all(gripper: &Gripper) -> Intervals {
+    Intervals::from_slice(&[[0.0, gripper.period()]])
 }
 
 /// The yaws, modulo `period`, at which an obstacle at `obstacle` from the object's centre blocks a finger grown by `rho`.
