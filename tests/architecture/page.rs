@@ -110,7 +110,7 @@ fn row<'a>(page: &'a str, thing: &str) -> (&'a str, Vec<String>) {
 fn all_that_knows_the_shapes_and_the_actions_is_named() {
     let page = page();
     for (thing, words) in [
-        ("a shape", &["Shape::Disc", "Self::Disc", "Pose { at"][..]),
+        ("a shape", &["ShapeDraft::Rectangle", "Self::Rectangle", "Kind::Rectangle"][..]),
         ("an action", &["Step::PickPlace", "Self::PickPlace(", "Way::Picked"]),
     ] {
         let (_, named) = row(&page, thing);

@@ -64,7 +64,8 @@ async fn each_named_answer_belongs_to_the_request_of_its_name() {
     let (host, document) = (Host::start().await, document());
     let plan = &document["paths"]["/v1/plans"]["post"];
     let (requests, answers) = (named(&plan["requestBody"]), named(&plan["responses"]["200"]));
-    assert_eq!(requests.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["one_object", "whole_table"]);
+    let names: Vec<_> = requests.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["one_object", "table_setting", "whole_table"]);
     assert_eq!(requests.len(), answers.len());
     for ((asked, request), (told, answer)) in requests.into_iter().zip(answers) {
         assert_eq!(asked, told);
@@ -74,8 +75,11 @@ async fn each_named_answer_belongs_to_the_request_of_its_name() {
         }
         assert_eq!(steady(&host.post("/v1/plans", request).await.json()), steady(answer), "{asked}");
     }
-    let cleared = &named(&plan["responses"]["200"])[1].1;
+    let answers = named(&plan["responses"]["200"]);
+    let (cleared, set) = (answers[2].1, answers[1].1);
     assert!(cleared["left"] == json!(["plate-1"]) && cleared["proven"] == true, "an example worth a look: {cleared}");
+    let moved = [&set["relocations"][0]["object"], &set["relocations"][1]["object"], &set["relocations"][1]["turn"]];
+    assert!(moved == [&json!("glass"), &json!("knife"), &json!(0.0)] && set["optimal"] == true, "worth a look: {set}");
 }
 
 #[test]

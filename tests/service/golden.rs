@@ -62,7 +62,7 @@ const ANSWER: [&str; 13] = [
 ];
 
 fn check_grasp(grasp: &Value, fingers: f64) {
-    assert_eq!(names(grasp), ["yaw", "slack"]);
+    assert_eq!(names(grasp), ["x", "y", "yaw", "slack"]);
     let (yaw, slack) = (grasp["yaw"].as_f64().unwrap(), grasp["slack"].as_f64().unwrap());
     let half = core::f64::consts::PI / fingers;
     assert!((0.0..2.0 * half).contains(&yaw) && slack > 0.0 && slack <= half + 1e-12, "{grasp}");

@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use super::INSIDE;
 use crate::geometry::{Grasp, Hold, Shadow};
 use crate::knowledge::GraspModel;
 use crate::scene::{Footprint, ObjectIndex, Placed, Pose, Scene, distance};
@@ -113,7 +114,8 @@ impl<'a> Layout<'a> {
         let others = self.scene.indices().filter(|&other| other != object && !self.is_lifted(other));
         others.map(|other| self.footprint(other)).fold(f64::INFINITY, |least, other| {
             let reach = place.circumradius() + other.circumradius();
-            let may_be_nearer = distance(place.at(), other.at()) - reach < least;
+            // With room for rounding: the least gap is stated to the last digit.
+            let may_be_nearer = distance(place.at(), other.at()) - reach < least + INSIDE;
             if may_be_nearer { least.min(place.gap(other)) } else { least }
         })
     }
