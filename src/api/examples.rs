@@ -23,8 +23,13 @@ pub(super) fn add(document: &mut OpenApi) {
     let schemas = &mut document.components.get_or_insert_default().schemas;
     let scene = scene(schemas);
     let clearing = clearing(&scene);
-    let plans = [("one_object", "Free one object", &scene), ("whole_table", "Clear the table", &clearing)]
-        .map(|(name, summary, scene)| (name, summary, scene.clone(), planned(scene)));
+    let setting = setting();
+    let plans = [
+        ("one_object", "Free one object", &scene),
+        ("whole_table", "Clear the table", &clearing),
+        ("table_setting", "Free a tray among cutlery and glasses", &setting),
+    ]
+    .map(|(name, summary, scene)| (name, summary, scene.clone(), planned(scene)));
     let Answers { plan, survey, knowledge, verify, verification } = Answers::to(&scene);
     let queued = queued_job();
     let end = json!({"finished_at": ENDED, "expires_at": FORGOTTEN, "queue_position": null});
@@ -140,6 +145,25 @@ fn clearing(scene: &Value) -> Value {
         fields.remove("target");
     }
     clearing
+}
+
+/// Two jaws at a tray: a knife stands in their way, and a glass in the way of the palm over the knife.
+fn setting() -> Value {
+    json!({
+        "scene_id": "table-7",
+        "table": {"x_min": 0, "y_min": 0, "x_max": 0.9, "y_max": 0.6},
+        "gripper": {"fingers": 2, "finger_width": 0.02, "clearance": 0.02, "max_opening": 0.14, "finger_length": 0.12,
+            "palm_radius": 0.05, "tip_height": 0.004},
+        "objects": [
+            {"id": "tray", "x": 0.3, "y": 0.2, "height": 0.03,
+                "shape": {"kind": "rectangle", "length": 0.3, "width": 0.12, "corner_radius": 0.02}},
+            {"id": "knife", "x": 0.3, "y": 0.37, "yaw": 1.57, "height": 0.01,
+                "shape": {"kind": "capsule", "length": 0.2, "radius": 0.01}, "grasps": [{"yaw": 1.57, "tolerance": 0.05}]},
+            {"id": "glass", "x": 0.37, "y": 0.37, "radius": 0.033, "height": 0.14},
+            {"id": "plate", "x": 0.68, "y": 0.3, "radius": 0.065, "height": 0.02}
+        ],
+        "target": "tray"
+    })
 }
 
 /// The JSON that an operation takes.

@@ -1,5 +1,7 @@
 //! The grasps that are listed for an object, as JSON: their schema, how they are written, and how they are read.
 
+#![expect(clippy::approx_constant, reason = "the derive takes no constants, and so no π/2")]
+
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -10,7 +12,7 @@ use singulate_planner::scene::{GraspDraft, ListedGrasp};
 /// One way to grasp an object, in the object's own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-#[schema(example = json!({"x": 0, "y": 0, "yaw": 1.5708, "tolerance": 0.05}))]
+#[schema(example = json!({"x": 0, "y": 0, "yaw": 1.57, "tolerance": 0.05}))]
 pub struct ListedGraspBody {
     /// The gripper's axis along x of the object's frame, m. Default: 0.
     #[schema(minimum = -1000, maximum = 1000, example = 0.0)]
@@ -21,7 +23,7 @@ pub struct ListedGraspBody {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<f64>,
     /// The direction of finger 0, rad, counter-clockwise from x of the object's frame.
-    #[schema(minimum = -1000, maximum = 1000, example = 1.5708)]
+    #[schema(minimum = -1000, maximum = 1000, example = 1.57)]
     pub yaw: f64,
     /// How far the real yaw may be off, rad; below π/k. All of this band must be free, or that of `yaw_tolerance` where it is wider.
     /// Default: 0.05.

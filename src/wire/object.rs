@@ -45,7 +45,7 @@ pub struct ObjectBody {
     pub height: Option<f64>,
     /// The only ways to grasp it. Default: a disc at every yaw; for two fingers a capsule across its middle, rectangle and polygon
     /// across parallel edges; for four fingers a rectangle along its axes; else none.
-    #[schema(max_items = 64, example = json!([{"x": 0, "y": 0, "yaw": 1.5708, "tolerance": 0.05}]))]
+    #[schema(max_items = 64, example = json!([{"x": 0, "y": 0, "yaw": 1.57, "tolerance": 0.05}]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grasps: Option<Vec<ListedGraspBody>>,
     /// True if the object can't be moved. Default: false.

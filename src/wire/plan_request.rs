@@ -94,19 +94,22 @@ impl StatedRequest {
         ];
         fields.iter().filter(|(stated, _)| *stated).for_each(|(_, field)| discs_only(field, faults));
         let objects = path.field("objects");
-        let kinds: [(&str, fn(&ObjectDraft) -> bool); 4] = [
+        let of_objects: [(&str, Stated); 4] = [
             ("yaw", |object| object.yaw.is_some()),
             ("shape", |object| !matches!(object.shape, ShapeDraft::Radius(_) | ShapeDraft::Unread)),
             ("height", |object| object.height.is_some()),
             ("grasps", |object| object.grasps.is_some()),
         ];
-        for (name, stated) in kinds {
+        for (name, stated) in of_objects {
             if let Some(first) = draft.objects.iter().position(stated) {
                 discs_only(&objects.item(first).field(name), faults);
             }
         }
     }
 }
+
+/// Whether a field of an object is stated.
+type Stated = fn(&ObjectDraft) -> bool;
 
 fn discs_only(field: &Path<'_>, faults: &mut RequestFaults) {
     let detail = format_args!(

@@ -45,7 +45,7 @@ pub struct SceneBody {
         {"id": "tray", "x": 0.7, "y": 0.2, "yaw": 0.3, "height": 0.03,
             "shape": {"kind": "rectangle", "length": 0.4, "width": 0.3, "corner_radius": 0.02},
             "grasps": [{"x": 0.18, "y": 0, "yaw": 0, "tolerance": 0.1}]},
-        {"id": "knife", "x": 0.43, "y": 0.22, "yaw": 1.5708, "shape": {"kind": "capsule", "length": 0.2, "radius": 0.01}}
+        {"id": "knife", "x": 0.43, "y": 0.22, "yaw": 1.57, "shape": {"kind": "capsule", "length": 0.2, "radius": 0.01}}
     ]))]
     pub objects: Vec<ObjectBody>,
     /// The id of the object to grasp. It must not be fixed. Either this or `goal` is required.

@@ -42,7 +42,7 @@ pub struct StatedPickPlace {
     /// How the gripper stands when the object is let go at the new place.
     pub release: StatedGraspBody,
     /// How far the object turns on the way, rad. Not checked if absent.
-    #[schema(example = 1.5708)]
+    #[schema(example = 1.57)]
     pub turn: Option<f64>,
     /// Least distance to another object at the new place, edge to edge, m.
     #[schema(example = 0.031)]

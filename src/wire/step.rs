@@ -34,7 +34,7 @@ pub struct PickPlaceBody<'a> {
     pub release: GraspBody,
     /// How far the object, and the gripper with it, turns on the way, rad, counter-clockwise, in (-π, π]. Absent for a disc that may
     /// be grasped at every yaw.
-    #[schema(value_type = f64, required = false, example = 1.5708)]
+    #[schema(value_type = f64, required = false, example = 1.57)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<f64>,
     /// Least distance to another object at the new place, edge to edge, m.
