@@ -43,8 +43,8 @@ pub struct ObjectBody {
     #[schema(minimum = 0.000001, maximum = 1000, example = 0.03)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
-    /// The only ways to grasp it. Default: a disc at every yaw; for two fingers a capsule across its middle, rectangle and polygon
-    /// across parallel edges; for four fingers a rectangle along its axes; else none.
+    /// The only ways to grasp it. Without them: a disc at every yaw; by two fingers a capsule across its middle, rectangle and polygon
+    /// across parallel edges; by four fingers a rectangle along its axes; else not at all.
     #[schema(max_items = 64, example = json!([{"x": 0, "y": 0, "yaw": 1.57, "tolerance": 0.05}]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grasps: Option<Vec<ListedGraspBody>>,

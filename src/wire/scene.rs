@@ -133,8 +133,7 @@ pub struct GripperBody {
     /// How far the fingers open before a grasp and after a release. Default: `fit`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opening: Option<OpeningWord>,
-    /// From the fingertips to the palm, m. Either both this and `palm_radius` are there, or neither. Default: no palm, so nothing
-    /// can meet it.
+    /// From the fingertips to the palm, m. Either both this and `palm_radius` are there, or neither: then nothing can meet the palm.
     #[schema(minimum = 0.000001, maximum = 1000, example = 0.12)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub finger_length: Option<f64>,
