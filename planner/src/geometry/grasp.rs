@@ -51,12 +51,12 @@ impl Hold {
     }
 
     /// The grasp in the first of these ways.
-    pub fn grasp(self, gripper: &Gripper, placed: Placed<'_>) -> Option<Grasp> {
+    pub fn grasp(self, placed: Placed<'_>) -> Option<Grasp> {
         match self {
             Self::AtYaw(grasp) => Some(grasp),
             Self::Listed(ways) => {
                 let list = placed.object.grasps().listed()?;
-                Some(listed(gripper, placed, list.get(ways.trailing_zeros() as usize)?))
+                Some(listed(placed, list.get(ways.trailing_zeros() as usize)?))
             }
         }
     }
@@ -68,12 +68,12 @@ fn feasible(list: &[ListedGrasp]) -> u64 {
 }
 
 /// A listed grasp of an object that stands somewhere.
-pub fn listed(gripper: &Gripper, placed: Placed<'_>, grasp: &ListedGrasp) -> Grasp {
+pub fn listed(placed: Placed<'_>, grasp: &ListedGrasp) -> Grasp {
     let pose = placed.footprint.pose();
     Grasp {
         axis: pose.at + turned(grasp.at(), direction(pose.yaw)),
         yaw: wrap(pose.yaw + grasp.yaw(), TAU),
-        slack: grasp.band(gripper),
+        slack: grasp.band(),
     }
 }
 

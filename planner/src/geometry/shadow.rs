@@ -120,10 +120,10 @@ impl Hindered<'_> {
             return true;
         }
         let Some(rho) = self.fingers.map(|rho| rho - ROUNDING) else { return false };
-        if !self.obstacle.comes_within(axis, grasp.reach(self.gripper) + rho - self.obstacle.radius()) {
+        if !self.obstacle.comes_within(axis, grasp.corner_distance() + rho - self.obstacle.radius()) {
             return false;
         }
-        let (band, towards) = (grasp.band(self.gripper), self.obstacle.at() - axis);
+        let (band, towards) = (grasp.band(), self.obstacle.at() - axis);
         grasp.inner().iter().zip(0_u32..).any(|(&inner, finger)| {
             let rectangle =
                 SweptRectangle { inner, outer: grasp.outer(), half_width: self.gripper.finger_width() / 2.0 };

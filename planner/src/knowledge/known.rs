@@ -75,10 +75,8 @@ fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object
 fn grasps(scene: &Scene, object: ObjectIndex, shadows: &[Blocker]) -> Option<Vec<KnownGrasp>> {
     let Grasps::Listed(list) = scene.object(object).grasps() else { return None };
     let ways = list.iter().zip(0_u32..).filter(|(grasp, _)| grasp.fits());
-    let known = |(grasp, way)| KnownGrasp {
-        grasp: listed(scene.gripper(), scene.placed(object), grasp),
-        blockers: blocking(shadows, way),
-    };
+    let known =
+        |(grasp, way)| KnownGrasp { grasp: listed(scene.placed(object), grasp), blockers: blocking(shadows, way) };
     Some(ways.map(known).collect())
 }
 

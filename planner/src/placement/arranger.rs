@@ -216,7 +216,7 @@ impl<'a, 'e> Arranger<'a, 'e> {
 
     /// The grasp of an object where it stands, in the first of some ways to hold it.
     fn grasp(&self, object: ObjectIndex, hold: Hold) -> Option<Grasp> {
-        hold.grasp(self.task.scene.gripper(), self.table.layout.placed(object))
+        hold.grasp(self.table.layout.placed(object))
     }
 
     /// Takes `object` away. The drop-off is known in the end, since objects may move on to others.
@@ -271,12 +271,12 @@ impl<'a, 'e> Arranger<'a, 'e> {
         rest: &[ObjectIndex],
         extra: usize,
     ) -> Result<Option<Arrangement>, Stop> {
-        let (from, gripper) = (self.table.layout.footprint(object).pose(), self.task.scene.gripper());
+        let from = self.table.layout.footprint(object).pose();
         let kept = hold.and(release);
         let Some(grasp) = kept.and_then(|kept| self.grasp(object, kept)) else { return Ok(None) };
         let gap = self.table.layout.gap(object, &self.table.layout.footprint(object).moved_to(to));
         let before = self.table.layout.put(object, to);
-        let Some(release) = release.grasp(gripper, self.table.layout.placed(object)) else {
+        let Some(release) = release.grasp(self.table.layout.placed(object)) else {
             self.table.layout.take_back(object, before);
             return Ok(None);
         };

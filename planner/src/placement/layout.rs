@@ -106,7 +106,7 @@ impl<'a> Layout<'a> {
 
     /// The best grasp of an object where it stands: the widest, or the first of its list.
     pub fn grasp(&self, object: ObjectIndex) -> Option<Grasp> {
-        self.hold(object)?.grasp(self.scene.gripper(), self.placed(object))
+        self.hold(object)?.grasp(self.placed(object))
     }
 
     /// The least distance from `object` at `place` to another object, edge to edge, m; infinite if there is none.
@@ -139,5 +139,5 @@ pub fn grasp_without(
     let shadows: Vec<Shadow> =
         others.map(|(other, _)| model.shadow(gripper, grasped, scene.placed(other), 0.0)).collect();
     let blocked = Shadow::union(gripper, grasped.object.grasps(), &shadows);
-    Hold::free(gripper, grasped, &blocked)?.grasp(gripper, grasped)
+    Hold::free(gripper, grasped, &blocked)?.grasp(grasped)
 }

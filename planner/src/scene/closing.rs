@@ -34,11 +34,15 @@ impl ClosingFinger {
     /// The least and the greatest coordinate at which the finger stops while it turns by up to `band` (rad) either way, m; 0
     /// where it meets nothing before the axis.
     pub(super) fn stops(&self, band: f64) -> [f64; 2] {
-        let mut turns: SmallVec<[f64; 16]> = SmallVec::from_slice(&[-band, 0.0, band]);
+        let mut turns: SmallVec<[f64; 16]> = SmallVec::from_slice(&[-band]);
         if band > 0.0 {
+            turns.push(band);
             self.turning_points(band, &mut turns);
+            turns.retain(|turn| turn.abs() <= band);
+            turns.sort_unstable_by(f64::total_cmp);
+            turns.dedup();
         }
-        let stops = turns.into_iter().filter(|turn| turn.abs() <= band).map(|turn| self.stop(turn));
+        let stops = turns.into_iter().map(|turn| self.stop(turn));
         stops.fold([f64::INFINITY, 0.0], |[least, most], stop| [least.min(stop), most.max(stop)])
     }
 

@@ -1,7 +1,7 @@
 //! The grasps of an object: at every yaw for a disc, else a list in the object's own frame, stated or by default.
 
 use core::f64::consts::{FRAC_PI_2, PI};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::Vector2;
 use smallvec::SmallVec;
@@ -30,10 +30,18 @@ pub struct ListedGrasp {
     at: Vector2<f64>,
     yaw: f64,
     tolerance: f64,
+    shape: Shape,
+    gripper: Gripper,
+    /// Found when it is first asked for: most objects of a table stand in nobody's way.
+    closing: OnceLock<Closing>,
+}
+
+/// Where the fingers stand before and after they close.
+#[derive(Debug, Clone, PartialEq)]
+struct Closing {
     inner: SmallVec<[f64; 4]>,
+    /// How far out a closed finger stands at some yaw of the band, m.
     widest: f64,
-    outer: f64,
-    fits: bool,
 }
 
 /// An unchecked listed grasp.
@@ -54,26 +62,27 @@ pub const DEFAULT_TOLERANCE: f64 = 0.05;
 
 /// Two edges count as parallel up to this angle, rad: 5°.
 const PARALLEL: f64 = PI / 36.0;
+/// How much wider than the hand opens an object may be, m: rounding, where it is as wide in decimals.
+const ROUNDING: f64 = 1e-10;
 /// Two grasps nearer than this are one, m and rad.
 const SAME: f64 = 1e-9;
 
 impl ListedGrasp {
     fn new(shape: &Shape, gripper: &Gripper, at: Vector2<f64>, yaw: f64, tolerance: f64) -> Self {
-        let (band, half) = (tolerance.max(gripper.yaw_tolerance), gripper.finger_width / 2.0);
-        let mut inner = SmallVec::new();
-        let mut widest = 0.0_f64;
-        for finger in 0..gripper.fingers {
-            let yaw = yaw + f64::from(finger) * gripper.period();
-            let [least, most] = ClosingFinger::new(shape, at, yaw, half).stops(band);
-            inner.push(least);
-            widest = widest.max(most);
-        }
-        let outer = match (gripper.opening, gripper.max_opening) {
-            (Opening::Full, Some(opening)) => opening / 2.0,
-            _ => widest,
-        };
-        let fits = gripper.max_opening.is_none_or(|opening| widest <= opening / 2.0);
-        Self { at, yaw, tolerance, inner, widest, outer: outer + gripper.clearance, fits }
+        Self { at, yaw, tolerance, shape: shape.clone(), gripper: *gripper, closing: OnceLock::new() }
+    }
+
+    fn closing(&self) -> &Closing {
+        self.closing.get_or_init(|| {
+            let (gripper, half) = (&self.gripper, self.gripper.finger_width / 2.0);
+            let stops = (0..gripper.fingers).map(|finger| {
+                let yaw = self.yaw + f64::from(finger) * gripper.period();
+                ClosingFinger::new(&self.shape, self.at, yaw, half).stops(self.band())
+            });
+            let stops: SmallVec<[[f64; 2]; 4]> = stops.collect();
+            let widest = stops.iter().map(|stop| stop[1]).fold(0.0, f64::max);
+            Closing { inner: stops.iter().map(|stop| stop[0]).collect(), widest }
+        })
     }
 
     /// The gripper's axis, m.
@@ -92,23 +101,37 @@ impl ListedGrasp {
     }
 
     /// How far the real yaw may be off: the grasp's tolerance or the gripper's, rad. All of this band must be free.
-    pub fn band(&self, gripper: &Gripper) -> f64 {
-        self.tolerance.max(gripper.yaw_tolerance)
+    pub fn band(&self) -> f64 {
+        self.tolerance.max(self.gripper.yaw_tolerance)
     }
 
     /// Per finger how near to the axis it closes at some yaw of the band, m.
     pub fn inner(&self) -> &[f64] {
-        &self.inner
+        &self.closing().inner
     }
 
     /// R, how far the open fingers reach from the axis, m.
     pub fn outer(&self) -> f64 {
-        self.outer
+        let open = match (self.gripper.opening, self.gripper.max_opening) {
+            (Opening::Full, Some(opening)) => opening / 2.0,
+            _ => self.closing().widest,
+        };
+        open + self.gripper.clearance
     }
 
     /// From the axis to the open fingers' outer corners, m.
-    pub fn reach(&self, gripper: &Gripper) -> f64 {
-        gripper.corner(self.outer)
+    pub fn corner_distance(&self) -> f64 {
+        self.gripper.corner(self.outer())
+    }
+
+    /// No corner of the open fingers is farther from the origin of the object's frame than this, m. A bound that needs no closed
+    /// fingers.
+    pub fn reach(&self) -> f64 {
+        let open = match (self.gripper.opening, self.gripper.max_opening) {
+            (Opening::Full, Some(opening)) => opening / 2.0,
+            _ => self.offset() + self.shape.circumradius(),
+        };
+        self.gripper.corner(open + self.gripper.clearance) + self.offset()
     }
 
     /// From the origin of the object's frame to the axis, m.
@@ -118,12 +141,12 @@ impl ListedGrasp {
 
     /// True if the object is not too wide for the hand in this way.
     pub fn fits(&self) -> bool {
-        self.fits
+        self.gripper.max_opening.is_none_or(|opening| self.closing().widest <= opening / 2.0 + ROUNDING)
     }
 
     /// The width of the object in this way, m: twice the farthest that a closed finger stands from the axis.
     fn width(&self) -> f64 {
-        2.0 * self.widest
+        2.0 * self.closing().widest
     }
 
     fn is(&self, other: &Self, gripper: &Gripper) -> bool {

@@ -118,6 +118,11 @@ impl Object {
         !self.fixed && self.hindrance.is_none()
     }
 
+    /// True if it is not fixed, but has no grasp, or is no higher than the fingertips; false for what is too wide for the hand.
+    pub fn lacks_grasp(&self) -> bool {
+        self.hindrance == Some(Hindrance::NoGrasp)
+    }
+
     /// How near to the gripper's axis a finger closes at least, m: for a disc its radius.
     pub(super) fn closest_finger(&self) -> f64 {
         match &self.grasps {
@@ -146,7 +151,9 @@ impl Object {
     /// this object, m; `None` where it passes over.
     pub fn palm_distance(&self, obstacle: &Self, gripper: &Gripper) -> Option<f64> {
         let (palm, height) = (gripper.palm()?, obstacle.height?);
-        (height > self.tips(gripper) + palm.finger_length).then_some(palm.radius + gripper.margin())
+        // The palm is as high as the object or higher: added up, rounding could put it below a neighbour of the same height.
+        let palm_height = self.height.unwrap_or(0.0).max(gripper.tip_height() + palm.finger_length);
+        (height > palm_height).then_some(palm.radius + gripper.margin())
     }
 
     /// The distance from the origin of its frame within which the edge of another object can hinder a grasp of it, m.
@@ -155,7 +162,7 @@ impl Object {
         let reach = match &self.grasps {
             Grasps::EveryYaw => gripper.corner_distance(&self.footprint).max(palm),
             Grasps::Listed(list) => {
-                list.iter().map(|grasp| grasp.reach(gripper).max(palm) + grasp.offset()).fold(0.0, f64::max)
+                list.iter().map(|grasp| grasp.reach().max(palm + grasp.offset())).fold(0.0, f64::max)
             }
         };
         reach + gripper.margin()

@@ -110,7 +110,8 @@ pub(super) fn reach(
         {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
         }
-        let radius = object.closest_finger();
+        // Two jaws face each other: they have no sides to overlap with.
+        let radius = if gripper.fingers > 2 { object.closest_finger() } else { f64::INFINITY };
         if gripper.finger_width / 2.0 > radius * half_angle_tangent {
             let flaw = Flaw::FingersOverlap { id: id(), finger_width: gripper.finger_width, radius };
             warnings.add(Place::WholeObject(at), flaw);
