@@ -117,10 +117,8 @@ impl Grasped {
             if self.radius > 0.0 {
                 across(&mut turns, bearing, (half + self.radius) / away);
             }
-            if self.radius > away {
-                // The point of the arc nearest to an axis within it is on a border.
-                across(&mut turns, bearing + PI, half / (self.radius - away));
-            }
+            // It is straight behind: the top is as near to the axis as it comes.
+            turns.push(bearing + PI);
         }
         for side in &self.sides {
             let normal = bearing(side.outward());
