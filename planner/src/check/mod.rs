@@ -33,6 +33,7 @@ mod near;
 mod needed;
 mod parts;
 mod place;
+mod poses;
 mod replay;
 mod rings;
 #[cfg(test)]
@@ -40,6 +41,8 @@ mod shapes;
 mod stop;
 mod sweep;
 mod terms;
+#[cfg(test)]
+mod tests;
 mod ways;
 mod yaws;
 

@@ -126,8 +126,11 @@ mod tests {
     }
 
     fn any_finger() -> impl Strategy<Value = Finger> {
-        (0.0..0.2_f64, 0.001..0.2_f64, 0.0005..0.05_f64)
-            .prop_map(|(inner, clearance, half)| Finger { inner, outer: inner + clearance, half })
+        (0.0..0.2_f64, 0.001..0.2_f64, 0.0005..0.05_f64).prop_map(|(inner, clearance, half)| Finger {
+            inner,
+            outer: inner + clearance,
+            half,
+        })
     }
 
     fn any_polygon() -> impl Strategy<Value = Footprint> {
