@@ -157,7 +157,8 @@ mod tests {
     fn grasped(shape: &Footprint, fingers: u32, grasp: (f64, f64, f64, f64)) -> Scene {
         let (x, y, yaw, tolerance) = grasp;
         let grasps = vec![GraspDraft { x: Some(x), y: Some(y), yaw: Some(yaw), tolerance: Some(tolerance) }];
-        let object = ObjectDraft { id: Some("o".into()), x: Some(1.0), y: Some(1.0), grasps: Some(grasps), ..draft(shape) };
+        let object =
+            ObjectDraft { id: Some("o".into()), x: Some(1.0), y: Some(1.0), grasps: Some(grasps), ..draft(shape) };
         TestScene::new(fingers).object(object).build("o")
     }
 

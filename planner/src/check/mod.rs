@@ -35,6 +35,7 @@ mod parts;
 mod place;
 mod poses;
 mod replay;
+mod ring;
 mod rings;
 #[cfg(test)]
 mod shapes;

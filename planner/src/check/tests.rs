@@ -137,9 +137,8 @@ fn a_jaw_a_millimetre_into_a_neighbour_is_told() {
 
 #[test]
 fn fingers_pass_over_what_is_low_only_if_the_grasped_is_high() {
-    let on = |tray: f64, held: f64| {
-        codes(&crowd([0.01, 0.0]).height("tray", tray).height("box", held).build("t"), &plan())
-    };
+    let on =
+        |tray: f64, held: f64| codes(&crowd([0.01, 0.0]).height("tray", tray).height("box", held).build("t"), &plan());
     assert_eq!(on(0.02, 0.05), [GraspBlocked]);
     assert_eq!(on(0.02, 0.12), []);
     assert_eq!(on(0.021, 0.12), [GraspBlocked]);
