@@ -7,7 +7,8 @@ use crate::budget::{Interrupted, Ticker};
 use crate::scene::{ObjectIndex, Scene};
 
 use super::allowed::Allowed;
-use super::rings::{Ring, Rings};
+use super::ring::Ring;
+use super::rings::Rings;
 use super::ways::{Way, grasp, way};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

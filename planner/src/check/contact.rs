@@ -81,7 +81,8 @@ impl<'a> Contact<'a> {
         }
         // Or it stays with the core, and the finger's corners turn.
         let far = self.finger.corner_distance();
-        let corners = self.finger.corners().map(|corner| turn(nearest - rho - n.dot(&corner), n.dot(&clockwise(corner)), far));
+        let corners =
+            self.finger.corners().map(|corner| turn(nearest - rho - n.dot(&corner), n.dot(&clockwise(corner)), far));
         with_finger.max(corners.into_iter().fold(f64::INFINITY, f64::min))
     }
 

@@ -15,7 +15,8 @@ use super::finger::wrap;
 use super::grip::{Grip, Hold, band_of};
 use super::hand::Hand;
 use super::leaning::Leaning;
-use super::near::{MAX_YAW, PlaceIndex, Places, Standing};
+use super::near::{PlaceIndex, Places, Standing};
+use super::poses::MAX_YAW;
 use super::terms::Terms;
 
 /// A hand about to close round an object, or to let it go, while the others stand on `standing`.
@@ -55,12 +56,7 @@ impl<'a> Grasping<'_, 'a> {
     }
 
     /// The grasp of the object where it stands. The result is the listed grasp, if it is one.
-    pub(super) fn grasp(
-        &mut self,
-        code: FaultCode,
-        body: &Body,
-        stated: StatedGrasp,
-    ) -> Result<Held, Interrupted> {
+    pub(super) fn grasp(&mut self, code: FaultCode, body: &Body, stated: StatedGrasp) -> Result<Held, Interrupted> {
         if !self.resolvable(stated) {
             return Ok(None);
         }
@@ -132,8 +128,7 @@ impl<'a> Grasping<'_, 'a> {
         // NaN agrees with nothing.
         let agrees = wrap(stated - real).abs() <= tolerance;
         if !agrees {
-            let detail =
-                || format!("turns by {:.9} rad, {what} by {} rad", wrap(real), figure(wrap(stated)));
+            let detail = || format!("turns by {:.9} rad, {what} by {} rad", wrap(real), figure(wrap(stated)));
             self.fault(FaultCode::WrongTurn, detail);
         }
     }
@@ -149,12 +144,7 @@ impl<'a> Grasping<'_, 'a> {
     }
 
     /// The grasp of a disc over its centre, at any yaw.
-    fn centred(
-        &mut self,
-        code: FaultCode,
-        body: &Body,
-        stated: StatedGrasp,
-    ) -> Result<(), Interrupted> {
+    fn centred(&mut self, code: FaultCode, body: &Body, stated: StatedGrasp) -> Result<(), Interrupted> {
         self.over(body.pose.at, stated.at.unwrap_or(body.pose.at));
         let gripper = self.scene.gripper();
         let (least, most) = (gripper.yaw_tolerance(), PI / f64::from(gripper.fingers()));
@@ -192,11 +182,7 @@ impl<'a> Grasping<'_, 'a> {
     }
 
     /// Fingers and palm meet no other object at any yaw of the band. Names the obstacle that they go deepest into.
-    fn clear(
-        &mut self,
-        code: FaultCode,
-        grip: &Grip,
-    ) -> Result<(), Interrupted> {
+    fn clear(&mut self, code: FaultCode, grip: &Grip) -> Result<(), Interrupted> {
         let gripper = self.scene.gripper();
         let hand = Hand::at(self.stated(), gripper, Leaning::Free);
         let (mut near, mut visited) = (Vec::new(), 0);

@@ -141,3 +141,85 @@ impl Grip {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::check::body::{Side, cos_sin};
+    use crate::check::measure::gap;
+    use crate::check::shapes::{any_footprint, at};
+    use crate::scene::scenes::TestScene;
+    use crate::scene::{Core, Footprint, GraspDraft, ObjectDraft, Pose, Scene, ShapeDraft};
+
+    /// A scene with an object of this shape that is grasped only in this way.
+    fn grasped(shape: &Footprint, fingers: u32, grasp: (f64, f64, f64, f64)) -> Scene {
+        let (x, y, yaw, tolerance) = grasp;
+        let grasps = vec![GraspDraft { x: Some(x), y: Some(y), yaw: Some(yaw), tolerance: Some(tolerance) }];
+        let object =
+            ObjectDraft { id: Some("o".into()), x: Some(1.0), y: Some(1.0), grasps: Some(grasps), ..draft(shape) };
+        TestScene::new(fingers).object(object).build("o")
+    }
+
+    fn draft(shape: &Footprint) -> ObjectDraft {
+        let points = |core: &Core| core.vertices().iter().map(|v| [Some(v.x), Some(v.y)]).collect();
+        let shape = match shape.shape().core() {
+            Some(core) if core.vertices().len() > 2 => {
+                ShapeDraft::Polygon { points: points(core), corner_radius: Some(shape.radius()) }
+            }
+            Some(core) => ShapeDraft::Capsule {
+                length: Some(2.0 * core.vertices()[0].norm() + 2.0 * shape.radius()),
+                radius: Some(shape.radius()),
+            },
+            None => ShapeDraft::disc(shape.radius()),
+        };
+        ObjectDraft { shape, ..ObjectDraft::default() }
+    }
+
+    /// The finger at a yaw as a body over the axis.
+    fn turned(finger: &Finger, axis: Point2<f64>, yaw: f64) -> Body {
+        let corners = finger.corners();
+        let side = |n: usize| {
+            let (start, along) = (corners[n], corners[(n + 1) % 4] - corners[n]);
+            Side { start, along: along / along.norm(), length: along.norm() }.rotated(cos_sin(yaw))
+        };
+        let pose = Pose { at: axis, yaw: 0.0 };
+        Body { pose, sides: (0..4).map(side).collect(), radius: 0.0, extent: finger.corner_distance() }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn a_band_is_free_where_every_sampled_yaw_of_every_finger_is(
+            fingers in 2_u32..=6, shape in any_footprint(0.05), other in any_footprint(0.05), stands in (-4.0..4.0_f64, 0.0..0.25_f64, -4.0..4.0_f64),
+            grasp in (-0.03..0.03_f64, -0.03..0.03_f64, -4.0..4.0_f64, 0.0..0.5_f64), turn in -4.0..4.0_f64,
+        ) {
+            let scene = grasped(&shape, fingers, grasp);
+            let (gripper, object) = (scene.gripper(), &scene.objects()[0]);
+            let body = Body::new(object.footprint().shape(), Pose { at: Point2::new(1.0, 1.0), yaw: turn });
+            let listed = &object.grasps().listed().unwrap()[0];
+            let obstacle = at(&other, [1.0 + stands.1 * libm::cos(stands.0), 1.0 + stands.1 * libm::sin(stands.0), stands.2]);
+            let [free, blocked] = [Leaning::Free, Leaning::Blocked].map(|leaning| {
+                let grip = Hold::new(object.footprint().shape(), listed, gripper, leaning).of(&body, gripper);
+                let comes_near = grip.comes_near(&obstacle, leaning.to_keep(obstacle.radius));
+                (grip, !comes_near)
+            });
+            // What is free by the one leaning is so by the other, and only rounding is between them.
+            prop_assert!(free.1 || !blocked.1);
+            let samples = 60;
+            let (grip, is_free) = blocked;
+            let mut nearest = f64::INFINITY;
+            for sample in 0..=samples {
+                let yaw = grip.yaw + grip.band * (f64::from(sample) / f64::from(samples) * 2.0 - 1.0);
+                for (m, finger) in (0..).zip(&grip.fingers) {
+                    let finger = turned(finger, grip.axis, yaw + f64::from(m) * gripper.period());
+                    nearest = nearest.min(gap(&finger, &obstacle));
+                }
+            }
+            let coarse = grip.span() * grip.band / f64::from(samples);
+            prop_assert!(!is_free || nearest >= -1e-12, "free, and {} near", nearest);
+            prop_assert!(is_free || nearest < coarse + 1e-11, "blocked, and {} apart", nearest);
+        }
+    }
+}

@@ -9,15 +9,9 @@ use core::iter;
 use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
-use crate::scene::{Pose, Rectangle};
-use crate::statement::StatedPose;
+use crate::scene::Rectangle;
 
 use super::body::{Body, Side, Sides};
-
-/// How far an object is from where it is said to stand, m.
-pub(super) fn apart(a: Pose, b: StatedPose) -> f64 {
-    (a.at - b.at).norm()
-}
 
 /// From the edge of a footprint to a point, m; negative inside.
 pub(super) fn away(body: &Body, point: Point2<f64>) -> f64 {
@@ -108,7 +102,9 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::check::shapes::{any_footprint, at, separation};
+    use crate::check::shapes::{any_footprint, at, footprint, separation};
+    use crate::scene::Footprint;
+    use crate::scene::scenes::TestScene;
 
     /// The sides as seen from the origin of the table.
     fn placed(body: &Body) -> Sides {
@@ -130,7 +126,7 @@ mod tests {
                 // Between two directions a separation changes by no more than the lengths times half a step.
                 prop_assert!(real >= sampled - 1e-12 && real <= sampled + 1.2 * 0.0016, "{} {}", real, sampled);
             }
-            let point = Body::of(&crate::scene::Footprint::disc(b.pose.at, 0.01));
+            let point = Body::of(&Footprint::disc(b.pose.at, 0.01));
             prop_assert!((away(&a, b.pose.at) - gap(&a, &point) - 0.01).abs() < 1e-12);
         }
 
@@ -138,7 +134,6 @@ mod tests {
         fn what_sticks_out_and_in_is_what_moves_it_off(
             a in any_footprint(0.1), (x, y) in (-0.3..0.3_f64, -0.3..0.3_f64), turn in -4.0..4.0_f64,
         ) {
-            use crate::scene::scenes::TestScene;
             let scene = TestScene::new(3).table(0.2, 0.1).disc("t", 0.1, 0.05, 0.01).build("t");
             let (body, top) = (at(&a, [x, y, turn]), scene.table().top());
             let (at, radius, border) = (body.pose.at, body.radius, 400);
@@ -159,7 +154,7 @@ mod tests {
 
     #[test]
     fn two_segments_in_a_line_are_apart() {
-        let bar = crate::check::shapes::footprint(&[(0.1, 0.0), (0.0, 0.0)], 0.01);
+        let bar = footprint(&[(0.1, 0.0), (0.0, 0.0)], 0.01);
         let (a, b) = (at(&bar, [0.0, 0.0, 0.0]), at(&bar, [0.5, 0.0, 0.0]));
         let expected = 0.5 - 0.101 - 0.02;
         assert!((gap(&a, &b) - expected).abs() < 1e-12, "{} {expected}", gap(&a, &b));

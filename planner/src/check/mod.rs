@@ -33,13 +33,17 @@ mod near;
 mod needed;
 mod parts;
 mod place;
+mod poses;
 mod replay;
+mod ring;
 mod rings;
 #[cfg(test)]
 mod shapes;
 mod stop;
 mod sweep;
 mod terms;
+#[cfg(test)]
+mod tests;
 mod ways;
 mod yaws;
 

@@ -7,7 +7,8 @@ use crate::budget::{Interrupted, Ticker};
 use crate::scene::{ObjectIndex, Scene};
 
 use super::drops::Takers;
-use super::rings::{Ring, Rings};
+use super::ring::Ring;
+use super::rings::Rings;
 
 /// The most objects of which every set is tried: a million sets.
 pub(super) const MOST_OBJECTS: usize = 20;
@@ -65,7 +66,7 @@ impl Trial<'_, '_> {
                 if !seen.contains(&next) && self.lifts(at, set) {
                     ticker.step(1)?;
                     seen.insert(next);
-                    if self.fits(next) {
+                    if self.has_room_for(next) {
                         larger.push(next);
                     }
                 }
@@ -86,7 +87,7 @@ impl Trial<'_, '_> {
     }
 
     /// True if the drop-offs have room for the whole set.
-    fn fits(&self, set: Set) -> bool {
+    fn has_room_for(&self, set: Set) -> bool {
         let mut held: HashMap<usize, Vec<usize>> = HashMap::new();
         let members = (0..self.objects.len()).filter(|at| set >> at & 1 == 1);
         members.into_iter().all(|at| self.settle(at, &mut held, &mut HashSet::new()))

@@ -9,13 +9,14 @@ use std::rc::Rc;
 use nalgebra::{Point2, Vector2};
 use smallvec::SmallVec;
 
-use crate::scene::{COORDINATE_RANGE, Grasps, ObjectIndex, Scene};
-use crate::statement::{StatedPose, Step};
+use crate::scene::{ObjectIndex, Scene};
+use crate::statement::Step;
 
 use super::allowed::Allowed;
 use super::body::Body;
 use super::measure::{away, gap};
 use super::names::ObjectNames;
+use super::poses::{at_every_yaw, is_place};
 
 /// The number of a place. At the start, the n-th object stands on place n.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,26 +82,6 @@ struct Bounds {
 
 /// Places in a box that is not divided further.
 const LEAF: usize = 8;
-
-/// The largest yaw whose digits still resolve 1e-9 rad after reduction modulo whole turns.
-pub(super) const MAX_YAW: f64 = 1e6;
-
-/// True if doubles resolve the coordinates well enough, and the yaw if there is one. A plan outside this range is on no table.
-pub(super) fn resolvable(pose: StatedPose) -> bool {
-    let (min, max) = (10.0 * COORDINATE_RANGE.0, 10.0 * COORDINATE_RANGE.1);
-    let yaw = pose.yaw.is_none_or(|yaw| yaw.abs() <= MAX_YAW);
-    (min..=max).contains(&pose.at.x) && (min..=max).contains(&pose.at.y) && yaw
-}
-
-/// True if a stated pose says all of where the object is to stand.
-fn is_place(scene: &Scene, object: ObjectIndex, to: StatedPose) -> bool {
-    resolvable(to) && (to.yaw.is_some() || at_every_yaw(scene, object))
-}
-
-/// True for an object whose own yaw is of no account.
-pub(super) fn at_every_yaw(scene: &Scene, object: ObjectIndex) -> bool {
-    *scene.object(object).grasps() == Grasps::EveryYaw
-}
 
 /// True if the edge of a body is nearer to a point than `reach`, m.
 fn comes_within(body: &Body, point: Point2<f64>, reach: f64) -> bool {

@@ -8,7 +8,8 @@ use crate::scene::{Goal, ObjectIndex, Scene};
 use super::allowed::Allowed;
 use super::fault::{FaultCode, Faults};
 use super::names::ObjectNames;
-use super::rings::{Ring, Rings};
+use super::ring::Ring;
+use super::rings::Rings;
 use super::ways::{grasp, way};
 
 struct Moving<'a, 's> {

@@ -12,10 +12,10 @@ use super::fault::{FaultCode, Faults, figure, point};
 use super::finger::wrap;
 use super::grasping::Grasping;
 use super::grip::band_of;
-use super::measure::apart;
 use super::names::ObjectNames;
-use super::near::{Places, Standing, resolvable};
+use super::near::{Places, Standing};
 use super::place::Landing;
+use super::poses::{apart, resolvable};
 use super::terms::Terms;
 
 struct Replay<'a> {

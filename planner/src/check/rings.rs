@@ -13,55 +13,12 @@ use super::grip::Hold;
 use super::hand::Hand;
 use super::leaning::Leaning;
 use super::near::Tree;
+use super::ring::{Listed, Ring, Shade};
 use super::yaws::{LENGTH_LEANING, all, blocked_by};
 
 /// Added to the least width of a free interval, or subtracted, by leaning, rad. Two ways to compute an interval's end
 /// differ by less.
 const WIDTH_LEANING: f64 = 1e-10;
-/// An interval of yaws that one obstacle blocks.
-pub(super) struct Shade {
-    lo: f64,
-    hi: f64,
-    by: ObjectIndex,
-}
-
-/// A listed grasp at the start.
-pub(super) struct Listed {
-    /// The direction of finger 0, rad.
-    yaw: f64,
-    /// The obstacles that block it.
-    by: Vec<ObjectIndex>,
-}
-
-/// What blocks the grasps of one object at the start.
-pub(super) enum Ring {
-    /// Of one that may be grasped at every yaw: the blocked yaws, sorted by where they begin.
-    EveryYaw(Vec<Shade>),
-    /// Of one with listed grasps: those that are not too wide.
-    Listed(Vec<Listed>),
-}
-
-impl Ring {
-    fn parts(&self) -> (&[Shade], &[Listed]) {
-        match self {
-            Self::EveryYaw(shades) => (shades, &[]),
-            Self::Listed(grasps) => (&[], grasps),
-        }
-    }
-
-    /// The number of intervals, or of obstacles of all grasps.
-    pub(super) fn len(&self) -> usize {
-        let (shades, grasps) = self.parts();
-        shades.len() + grasps.iter().map(|grasp| grasp.by.len()).sum::<usize>()
-    }
-
-    /// The obstacles that block some grasp, once for each grasp or interval.
-    pub(super) fn blockers(&self) -> impl Iterator<Item = ObjectIndex> + '_ {
-        let (shades, grasps) = self.parts();
-        shades.iter().map(|shade| shade.by).chain(grasps.iter().flat_map(|grasp| grasp.by.iter().copied()))
-    }
-}
-
 /// The rings of a scene, each computed on first use. They don't depend on the target.
 pub(super) struct Rings<'s> {
     scene: &'s Scene,
@@ -255,6 +212,23 @@ mod tests {
         }
     }
 
+    /// A free interval is found where, and only where, sampling finds one.
+    fn agrees(scene: &Scene) -> Result<(), TestCaseError> {
+        let (start, tolerance) = (Tree::of_start(scene), scene.gripper().yaw_tolerance());
+        for leaning in [Leaning::Blocked, Leaning::Free] {
+            let mut rings = Rings::new(scene, &start, leaning);
+            let ring = rings.ring(scene.target().unwrap(), &mut Ticker::new(&Budget::unlimited())).unwrap();
+            // The middle of a free interval is at most half a sample off.
+            let half_sample = scene.gripper().period() / 1000.0 + 1e-9;
+            if rings.free_yaw(&ring, |_| true).is_some() {
+                prop_assert!(some_band_is_free(scene, tolerance - half_sample));
+            } else {
+                prop_assert!(!some_band_is_free(scene, tolerance + 1e-9));
+            }
+        }
+        Ok(())
+    }
+
     proptest! {
         #[test]
         fn a_free_interval_is_found_where_a_band_of_its_width_is_free(
@@ -263,19 +237,22 @@ mod tests {
         ) {
             let mut discs = vec![(0.5, 0.5, 0.05)];
             discs.extend(others);
-            let scene = TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs).build("d0");
-            let start = Tree::of_start(&scene);
-            for leaning in [Leaning::Blocked, Leaning::Free] {
-                let mut rings = Rings::new(&scene, &start, leaning);
-                let ring = rings.ring(scene.target().unwrap(), &mut Ticker::new(&Budget::unlimited())).unwrap();
-                // The middle of a free interval is at most half a sample off.
-                let half_sample = scene.gripper().period() / 1000.0 + 1e-9;
-                if rings.free_yaw(&ring, |_| true).is_some() {
-                    prop_assert!(some_band_is_free(&scene, tolerance - half_sample));
-                } else {
-                    prop_assert!(!some_band_is_free(&scene, tolerance + 1e-9));
-                }
+            agrees(&TestScene::new(fingers).yaw_tolerance(tolerance).scatter(&discs).build("d0"))?;
+        }
+
+        #[test]
+        fn a_free_interval_between_bars_is_found(
+            fingers in 2_u32..=6, tolerance in 0.01..0.3_f64,
+            bars in proptest::collection::vec((0.0..6.3_f64, 0.0..0.08_f64, 0.0..6.3_f64, 0.01..0.2_f64), 1..6),
+        ) {
+            let mut scene = TestScene::new(fingers).yaw_tolerance(tolerance).disc("t", 0.5, 0.5, 0.05);
+            for (n, (bearing, beyond, yaw, length)) in bars.into_iter().enumerate() {
+                let (id, away) = (format!("bar{n}"), 0.05 + 0.01 + length / 2.0 + beyond);
+                let (x, y) = (0.5 + away * libm::cos(bearing), 0.5 + away * libm::sin(bearing));
+                // Fixed objects may overlap.
+                scene = scene.rectangle(&id, [x, y, yaw], [length, 0.02]).fix(&id);
             }
+            agrees(&scene.build("t"))?;
         }
     }
 }

@@ -11,8 +11,8 @@ pub(super) fn footprint(points: &[(f64, f64)], radius: f64) -> Footprint {
     let shape = match points {
         [] | [_] => ShapeDraft::disc(radius.max(0.001)),
         [(length, _), _] => {
-            let radius = Some(radius.max(0.001));
-            ShapeDraft::Capsule { length: Some(length.abs() + 2.1 * radius.unwrap_or_default()), radius }
+            let radius = radius.max(0.001);
+            ShapeDraft::Capsule { length: Some(length.abs() + 2.1 * radius), radius: Some(radius) }
         }
         points => ShapeDraft::Polygon {
             points: points.iter().map(|(x, y)| [Some(*x), Some(*y)]).collect(),

@@ -54,11 +54,7 @@ impl Grasped {
                 tip = corner;
             }
         }
-        let stop = if tip.y.abs() <= half {
-            tip.x + self.radius
-        } else {
-            self.exit(back, half.copysign(tip.y))
-        };
+        let stop = if tip.y.abs() <= half { tip.x + self.radius } else { self.exit(back, half.copysign(tip.y)) };
         stop.max(0.0)
     }
 
@@ -79,7 +75,11 @@ impl Grasped {
             if border >= start.y.min(end.y) - TOUCHING && border <= start.y.max(end.y) + TOUCHING {
                 let share = (border - start.y) / (end.y - start.y);
                 // A side along the border is met as a whole.
-                let x = if share.is_finite() { start.x + share.clamp(0.0, 1.0) * (end.x - start.x) } else { start.x.max(end.x) };
+                let x = if share.is_finite() {
+                    start.x + share.clamp(0.0, 1.0) * (end.x - start.x)
+                } else {
+                    start.x.max(end.x)
+                };
                 farthest = farthest.max(x);
             }
         }
@@ -89,7 +89,8 @@ impl Grasped {
     /// Where a finger stops at most while its yaw is within `yaw` ± `band`, m.
     pub(super) fn most(&self, (yaw, band): (f64, f64), half: f64) -> f64 {
         let ends = self.stop(yaw - band, half).max(self.stop(yaw + band, half));
-        let ahead = self.corners.iter().filter(|corner| off(bearing(**corner), yaw).abs() <= band || corner.norm() <= 0.0);
+        let ahead =
+            self.corners.iter().filter(|corner| off(bearing(**corner), yaw).abs() <= band || corner.norm() <= 0.0);
         ahead.map(|corner| corner.norm() + self.radius).fold(ends, f64::max)
     }
 
@@ -117,10 +118,8 @@ impl Grasped {
             if self.radius > 0.0 {
                 across(&mut turns, bearing, (half + self.radius) / away);
             }
-            if self.radius > away {
-                // The point of the arc nearest to an axis within it is on a border.
-                across(&mut turns, bearing + PI, half / (self.radius - away));
-            }
+            // It is straight behind: the top is as near to the axis as it comes.
+            turns.push(bearing + PI);
         }
         for side in &self.sides {
             let normal = bearing(side.outward());

@@ -5,7 +5,8 @@ use core::fmt;
 
 use crate::scene::ObjectIndex;
 
-use super::rings::{Ring, Rings};
+use super::ring::Ring;
+use super::rings::Rings;
 
 /// A way to move an object.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -95,6 +95,16 @@ impl TestScene {
         self
     }
 
+    pub(crate) fn max_opening(mut self, opening: f64) -> Self {
+        self.0.gripper.max_opening = Some(opening);
+        self
+    }
+
+    pub(crate) fn tip_height(mut self, height: f64) -> Self {
+        self.0.gripper.tip_height = Some(height);
+        self
+    }
+
     /// Adds the discs (x, y, radius) that don't overlap an earlier one, as d0, d1 and so on by their positions in the
     /// list.
     pub(crate) fn scatter(mut self, discs: &[(f64, f64, f64)]) -> Self {
