@@ -19,23 +19,36 @@ STEP = {
     "object": "plate-2",
     "from": {"x": 0.31, "y": 0.2},
     "to": {"x": 0.0627, "y": -0.0001},
-    "grasp": {"yaw": 1.25, "slack": 0.1},
-    "release": {"yaw": -0.0004, "slack": 0.1},
+    "grasp": {"x": 0.31, "y": 0.2, "yaw": 1.25, "slack": 0.1},
+    "release": {"x": 0.0627, "y": -0.0001, "yaw": -0.0004, "slack": 0.1},
     "gap": 0.1,
 }
+TURN = {
+    **STEP,
+    "from": {"x": 0.31, "y": 0.2, "yaw": 0.3},
+    "to": {"x": 0.1, "y": 0.4, "yaw": 1.8},
+    "grasp": {"x": 0.33, "y": 0.21, "yaw": 1.25, "slack": 0.05},
+    "release": {"x": 0.0931, "y": 0.4214, "yaw": 2.75, "slack": 0.05},
+    "turn": 1.5,
+}
+"""Of something that is held beside its middle, and turned on the way."""
 DROP = {
     "action": "pick_drop",
     "object": "plate-2",
     "from": {"x": 0.31, "y": 0.2},
-    "grasp": {"yaw": 1.25, "slack": 0.1},
+    "grasp": {"x": 0.31, "y": 0.2, "yaw": 1.25, "slack": 0.1},
     "drop_off": "tray",
 }
-ALSO = {**DROP, "object": "plate-1", "from": {"x": 0.5, "y": 0.29}}
+ALSO = {**DROP, "object": "plate-1", "from": {"x": 0.5, "y": 0.29, "yaw": -0.7}}
+TARGET_GRASP = {"x": 0.4, "y": 0.25, "yaw": 0.5, "slack": 0.1}
 GO_ON = Canned(200, {"valid": True, "faults": [], "first_failing_step": None, "replan": False})
 PLAN_AGAIN = Canned(200, {"valid": False, "faults": [], "first_failing_step": 0, "replan": True})
-MOVE = "move plate-2 from 0.310 0.200 to 0.063 0.000, grasp at 1.250, release at 0.000\n"
-TAKE = "take plate-2 from 0.310 0.200 away to tray, grasp at 1.250\n"
-ALSO_TAKE = TAKE.replace("plate-2 from 0.310 0.200", "plate-1 from 0.500 0.290")
+MOVE = "move plate-2 from 0.310 0.200 to 0.063 0.000, grasp at 0.310 0.200 1.250, release at 0.063 0.000 0.000\n"
+TURNED = "move plate-2 from 0.310 0.200 0.300 to 0.100 0.400 1.800, turned by 1.500, "
+TURNED += "grasp at 0.330 0.210 1.250, release at 0.093 0.421 2.750\n"
+TAKE = "take plate-2 from 0.310 0.200 away to tray, grasp at 0.310 0.200 1.250\n"
+ALSO_TAKE = TAKE.replace("plate-2 from 0.310 0.200", "plate-1 from 0.500 0.290 -0.700")
+GRASP = "grasp cup at 0.400 0.250 0.500\n"
 
 
 @dataclass(frozen=True)
@@ -112,8 +125,7 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     moved = "".join(lines)
     busy = problem(503, "overloaded", "Too busy", retry_after="1")
     hasty = problem(429, "rate_exceeded", "Too many requests", retry_after="1")
-    grasp = {"yaw": 0.5, "slack": 0.1}
-    free = answer("graspable", target_grasp=grasp)
+    free = answer("graspable", target_grasp=TARGET_GRASP)
 
     four = (Reset(), busy, hasty, CutOff())
     yield Case("four faults", one_move, moved, 0, server=proxy(*four), check=four_faults(0))
@@ -122,12 +134,12 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     silent = problem(503, "overloaded", "Too busy")
     yield Case("always busy", one_move, "", 1, "gave up: Too busy", proxy(then=silent), check=patiently(4, 5))
     slow = scene("slow", time_limit_ms=1)
-    yield Case("dripping", slow, "grasp cup at 0.500\n", 0, server=proxy(Drip(), then=free), check=counted(2))
-    strange = answer("push_aside", relocations=[STEP], target_grasp=grasp)
+    yield Case("dripping", slow, GRASP, 0, server=proxy(Drip(), then=free), check=counted(2))
+    strange = answer("push_aside", relocations=[STEP], target_grasp=TARGET_GRASP)
     yield Case("unknown verdict", one_move, "", 1, "push_aside", proxy(then=strange), check=counted(1))
-    pushed = answer("relocate", relocations=[{**STEP, "action": "push"}], target_grasp=grasp)
+    pushed = answer("relocate", relocations=[{**STEP, "action": "push"}], target_grasp=TARGET_GRASP)
     yield Case("unknown action", one_move, "", 1, "push", proxy(then=pushed), check=counted(1))
-    ghost = answer("relocate", relocations=[{**STEP, "object": "ghost"}], target_grasp=grasp)
+    ghost = answer("relocate", relocations=[{**STEP, "object": "ghost"}], target_grasp=TARGET_GRASP)
     yield Case("unknown object", one_move, "", 1, "ghost", proxy(then=ghost), check=counted(1))
     torn = Canned(200, {"verdict": "graspable", "target": "cup"})
     yield Case("torn answer", one_move, "", 1, server=proxy(then=torn), check=counted(1))
@@ -152,12 +164,24 @@ def fault_cases(upstream: tuple[str, int], folder: Path) -> Iterator[Case]:
     capped = limits(20_000, 60_000)
     yield Case("timed out, nothing known", patient, "timed out\n", 5, server=proxy(then=unknown), check=capped)
     twice = proxy(late, free)
-    yield Case("in time at last", one_move, "grasp cup at 0.500\n", 0, server=twice, check=limits(None, 10_000))
-    endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=grasp), verified=PLAN_AGAIN)
+    yield Case("in time at last", one_move, GRASP, 0, server=twice, check=limits(None, 10_000))
+    endless = proxy(then=answer("relocate", relocations=[STEP], target_grasp=TARGET_GRASP), verified=PLAN_AGAIN)
     yield Case("a hundred rounds", one_move, 100 * MOVE, 1, server=endless, check=hundred_rounds)
-    step = answer("relocate", relocations=[STEP], target_grasp=grasp)
+    step = answer("relocate", relocations=[STEP], target_grasp=TARGET_GRASP)
     again = proxy(step, then=free, verified=PLAN_AGAIN)
-    yield Case("plan again", one_move, MOVE + "grasp cup at 0.500\n", 0, server=again, check=planned_again)
+    yield Case("plan again", one_move, MOVE + GRASP, 0, server=again, check=planned_again)
+    turn = answer("relocate", relocations=[TURN], target_grasp=TARGET_GRASP)
+    yield Case("turned", one_move, TURNED + GRASP, 0, server=proxy(turn, verified=GO_ON), check=turned)
+    for name, wrong in (
+        ("a grasp at no place", {"grasp": {"yaw": 1.25, "slack": 0.1}}),
+        ("a release at no place", {"release": {"x": 0.1, "yaw": 2.75, "slack": 0.1}}),
+        ("a yaw that is no number", {"to": {"x": 0.1, "y": 0.4, "yaw": "east"}}),
+        ("a turn that is no number", {"turn": "half"}),
+    ):
+        torn = answer("relocate", relocations=[{**TURN, **wrong}], target_grasp=TARGET_GRASP)
+        yield Case(name, one_move, "", 1, server=proxy(then=torn), check=counted(1))
+    placeless = answer("graspable", target_grasp={"yaw": 0.5, "slack": 0.1})
+    yield Case("a last grasp at no place", one_move, "", 1, server=proxy(then=placeless), check=counted(1))
     yield from clearing_cases(proxy, dropping("clear", clear=True))
     yield from away_cases(proxy, dropping("two-away", all_of=["plate-1", "plate-2"]))
     mute = proxy(step, verified=Canned(200, {"valid": True, "faults": []}))
@@ -253,10 +277,17 @@ def planned_again(requests: list[Request]) -> str | None:
     tolerance = verification.pop("position_tolerance", None)
     if not isinstance(tolerance, float) or not 0 < tolerance < 0.1:
         return f"position_tolerance is {tolerance}"
-    left = answer("relocate", target_grasp={"yaw": 0.5, "slack": 0.1}).body
+    left = answer("relocate", target_grasp=TARGET_GRASP).body
     if verification != {"scene": again, "plan": left, "partial": True}:
         return f"it verified {verification}"
     return None
+
+
+def turned(requests: list[Request]) -> str | None:
+    """A plan, and its verification with the object as it stands now."""
+    first, scene = requests[0].body, requests[1].body["scene"]
+    objects = [{**item, **TURN["to"]} if item["id"] == "plate-2" else item for item in first["objects"]]
+    return counted(2)(requests) if scene == {**first, "objects": objects} else f"it verified on {scene}"
 
 
 def emptied(requests: list[Request]) -> str | None:

@@ -29,7 +29,7 @@ pub(crate) enum End {
     /// The target can be grasped.
     Grasp {
         target: String,
-        yaw: f64,
+        grasp: Grasp,
     },
     /// All that is wanted away is away.
     AllAway,
@@ -57,29 +57,37 @@ pub(crate) enum Step {
 #[derive(Deserialize)]
 pub(crate) struct Relocation {
     pub(crate) object: String,
-    pub(crate) from: Place,
-    pub(crate) to: Place,
+    pub(crate) from: Pose,
+    pub(crate) to: Pose,
     pub(crate) grasp: Grasp,
     pub(crate) release: Grasp,
+    /// How far the object turns on the way, if that is said, rad.
+    pub(crate) turn: Option<f64>,
 }
 
 /// Away from the table.
 #[derive(Deserialize)]
 pub(crate) struct Removal {
     pub(crate) object: String,
-    pub(crate) from: Place,
+    pub(crate) from: Pose,
     pub(crate) grasp: Grasp,
     pub(crate) drop_off: String,
 }
 
+/// An object's own frame, or the centre of a disc.
 #[derive(Deserialize)]
-pub(crate) struct Place {
+pub(crate) struct Pose {
     pub(crate) x: f64,
     pub(crate) y: f64,
+    /// None for a disc that may be grasped at every yaw.
+    pub(crate) yaw: Option<f64>,
 }
 
+/// The gripper's axis, and the direction of finger 0.
 #[derive(Deserialize)]
 pub(crate) struct Grasp {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
     pub(crate) yaw: f64,
 }
 
@@ -170,7 +178,7 @@ impl Plan {
         let plan = Self::read(
             body,
             match part(body)? {
-                Target { target: Some(target), target_grasp: Some(Grasp { yaw }) } => End::Grasp { target, yaw },
+                Target { target: Some(target), target_grasp: Some(grasp) } => End::Grasp { target, grasp },
                 Target { target: None, target_grasp: None } => End::AllAway,
                 _ => return Err(Error::custom("a target without a grasp, or a grasp without a target")),
             },

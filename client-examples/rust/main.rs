@@ -6,7 +6,7 @@ mod service;
 
 use std::process::ExitCode;
 
-use answer::{Answer, End, Place, Relocation, Removal, Step};
+use answer::{Answer, End, Grasp, Pose, Relocation, Removal, Step};
 use scene::Scene;
 use service::{Failure, Service};
 
@@ -75,14 +75,16 @@ async fn planned(service: &Service, scene: &Scene) -> Result<Answer, Failure> {
 /// Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that.
 fn carry_out(scene: &mut Scene, step: &Step) -> Result<(), Failure> {
     match step {
-        Step::Relocation(Relocation { object, from, to, grasp, release }) => {
+        Step::Relocation(Relocation { object, from, to, grasp, release, turn }) => {
             scene.put(object, to)?;
-            let [grasp, release] = [grasp.yaw, release.yaw].map(number);
-            println!("move {object} from {} to {}, grasp at {grasp}, release at {release}", point(from), point(to));
+            let turned = turn.map(|turn| format!(", turned by {}", number(turn))).unwrap_or_default();
+            let [from, to] = [from, to].map(place);
+            let [grasp, release] = [grasp, release].map(grip);
+            println!("move {object} from {from} to {to}{turned}, grasp at {grasp}, release at {release}");
         }
         Step::Removal(Removal { object, from, grasp, drop_off }) => {
             scene.take_away(object, drop_off)?;
-            println!("take {object} from {} away to {drop_off}, grasp at {}", point(from), number(grasp.yaw));
+            println!("take {object} from {} away to {drop_off}, grasp at {}", place(from), grip(grasp));
         }
     }
     Ok(())
@@ -91,7 +93,7 @@ fn carry_out(scene: &mut Scene, step: &Step) -> Result<(), Failure> {
 /// The end of a plan; 0 if it reaches the goal.
 fn finish(end: &End) -> ExitCode {
     match end {
-        End::Grasp { target, yaw } => println!("grasp {target} at {}", number(*yaw)),
+        End::Grasp { target, grasp } => println!("grasp {target} at {}", grip(grasp)),
         End::AllAway => println!("all taken away"),
         End::Cleared => println!("cleared"),
         End::PartlyCleared(remains) => {
@@ -115,8 +117,13 @@ fn report(words: &str, ids: &[String], what: &str, status: u8) -> ExitCode {
     ExitCode::from(status)
 }
 
-fn point(place: &Place) -> String {
-    format!("{} {}", number(place.x), number(place.y))
+fn place(pose: &Pose) -> String {
+    let yaw = pose.yaw.map(|yaw| format!(" {}", number(yaw))).unwrap_or_default();
+    format!("{} {}{yaw}", number(pose.x), number(pose.y))
+}
+
+fn grip(grasp: &Grasp) -> String {
+    format!("{} {} {}", number(grasp.x), number(grasp.y), number(grasp.yaw))
 }
 
 /// Millimetres and milliradians; what rounds to zero has no sign.

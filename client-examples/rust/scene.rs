@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::answer::Place;
+use crate::answer::Pose;
 use crate::service::Failure;
 
 /// The service's own limits, where its operator has not changed them.
@@ -27,10 +27,13 @@ impl Scene {
     }
 
     /// Puts an object elsewhere.
-    pub(crate) fn put(&mut self, object: &str, to: &Place) -> Result<(), Failure> {
+    pub(crate) fn put(&mut self, object: &str, to: &Pose) -> Result<(), Failure> {
         let (items, at) = self.find("objects", object)?;
         items[at]["x"] = to.x.into();
         items[at]["y"] = to.y.into();
+        if let Some(yaw) = to.yaw {
+            items[at]["yaw"] = yaw.into();
+        }
         Ok(())
     }
 

@@ -11,9 +11,18 @@ using nlohmann::json;
 
 namespace {
 
-Point read_point(const json& point) { return {point.at("x").get<double>(), point.at("y").get<double>()}; }
+/// What stands only where it says something.
+std::optional<double> read_angle(const json& document, const char* name) {
+  return document.contains(name) ? std::optional(document.at(name).get<double>()) : std::nullopt;
+}
 
-double read_yaw(const json& grasp) { return grasp.at("yaw").get<double>(); }
+Pose read_pose(const json& pose) {
+  return {pose.at("x").get<double>(), pose.at("y").get<double>(), read_angle(pose, "yaw")};
+}
+
+Grip read_grip(const json& grasp) {
+  return {grasp.at("x").get<double>(), grasp.at("y").get<double>(), grasp.at("yaw").get<double>()};
+}
 
 std::vector<std::string> read_ids(const json& ids) { return ids.get<std::vector<std::string>>(); }
 
@@ -30,13 +39,14 @@ std::vector<std::string> read_core(const json& lock) {
 Step read_step(const json& step) {
   const auto action = step.at("action").get<std::string>();
   const auto object = step.at("object").get<std::string>();
-  const Point from = read_point(step.at("from"));
-  const double grasp_yaw = read_yaw(step.at("grasp"));
+  const Pose from = read_pose(step.at("from"));
+  const Grip grasp = read_grip(step.at("grasp"));
   if (action == "pick_place") {
-    return Relocation{object, from, read_point(step.at("to")), grasp_yaw, read_yaw(step.at("release"))};
+    return Relocation{object, from, read_pose(step.at("to")), grasp, read_grip(step.at("release")),
+                      read_angle(step, "turn")};
   }
   if (action == "pick_drop") {
-    return Removal{object, from, grasp_yaw, step.at("drop_off").get<std::string>()};
+    return Removal{object, from, grasp, step.at("drop_off").get<std::string>()};
   }
   throw Failure(Exit::refused, "unknown action: " + action);
 }
@@ -55,7 +65,7 @@ End read_end(const json& document) {
   if (document.at("target").is_null() && document.at("target_grasp").is_null()) {
     return AllAway{};
   }
-  return Grasp{document.at("target").get<std::string>(), read_yaw(document.at("target_grasp"))};
+  return Grasp{document.at("target").get<std::string>(), read_grip(document.at("target_grasp"))};
 }
 
 Plan read_plan_to_goal(const json& document, bool with_steps) {

@@ -1,31 +1,42 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace singulate {
 
-struct Point {
+/// Of an object: its own frame, or the centre of a disc.
+struct Pose {
   double x = 0;
   double y = 0;
+  std::optional<double> yaw;  // none for a disc that may be grasped at every yaw
+};
+
+/// Of the gripper: its axis, and the direction of finger 0.
+struct Grip {
+  double x = 0;
+  double y = 0;
+  double yaw = 0;
 };
 
 /// To another place on the table.
 struct Relocation {
   std::string object;
-  Point from;
-  Point to;
-  double grasp_yaw = 0;
-  double release_yaw = 0;
+  Pose from;
+  Pose to;
+  Grip grasp;
+  Grip release;
+  std::optional<double> turn;  // how far the object turns on the way, if that is said, rad
 };
 
 /// Away from the table.
 struct Removal {
   std::string object;
-  Point from;
-  double grasp_yaw = 0;
+  Pose from;
+  Grip grasp;
   std::string drop_off;
 };
 
@@ -34,7 +45,7 @@ using Step = std::variant<Relocation, Removal>;
 /// The target can be grasped.
 struct Grasp {
   std::string target;
-  double yaw = 0;
+  Grip grip;
 };
 
 /// All that is wanted away is away.

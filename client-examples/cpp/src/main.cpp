@@ -43,7 +43,11 @@ void print_ids(const char* verdict, const std::vector<std::string>& ids, const c
   std::cout << (ids.empty() ? "" : rest) << '\n';
 }
 
-std::string point(Point at) { return decimals(at.x) + ' ' + decimals(at.y); }
+std::string place(const Pose& at) {
+  return decimals(at.x) + ' ' + decimals(at.y) + (at.yaw ? ' ' + decimals(*at.yaw) : "");
+}
+
+std::string place(const Grip& at) { return place(Pose{at.x, at.y, at.yaw}); }
 
 /// Stands for the robot: a real one picks and places here, and its camera says where the object came to lie.
 struct CarryOut {
@@ -51,20 +55,21 @@ struct CarryOut {
 
   void operator()(const Relocation& step) const {
     scene.put(step.object, step.to);
-    std::cout << "move " << step.object << " from " << point(step.from) << " to " << point(step.to) << ", grasp at "
-              << decimals(step.grasp_yaw) << ", release at " << decimals(step.release_yaw) << '\n';
+    std::cout << "move " << step.object << " from " << place(step.from) << " to " << place(step.to)
+              << (step.turn ? ", turned by " + decimals(*step.turn) : "") << ", grasp at " << place(step.grasp)
+              << ", release at " << place(step.release) << '\n';
   }
   void operator()(const Removal& step) const {
     scene.take_away(step.object, step.drop_off);
-    std::cout << "take " << step.object << " from " << point(step.from) << " away to " << step.drop_off << ", grasp at "
-              << decimals(step.grasp_yaw) << '\n';
+    std::cout << "take " << step.object << " from " << place(step.from) << " away to " << step.drop_off << ", grasp at "
+              << place(step.grasp) << '\n';
   }
 };
 
 /// The end of a plan without steps.
 struct Finish {
   Exit operator()(const Grasp& grasp) const {
-    std::cout << "grasp " << grasp.target << " at " << decimals(grasp.yaw) << '\n';
+    std::cout << "grasp " << grasp.target << " at " << place(grasp.grip) << '\n';
     return Exit::reached;
   }
   Exit operator()(const AllAway&) const {

@@ -59,10 +59,13 @@ Scene Scene::with_more_time() const {
   return scene;
 }
 
-void Scene::put(const std::string& object, Point to) {
+void Scene::put(const std::string& object, Pose to) {
   const auto found = find(document_, "objects", object);
   (*found)["x"] = to.x;
   (*found)["y"] = to.y;
+  if (to.yaw) {
+    (*found)["yaw"] = *to.yaw;
+  }
 }
 
 void Scene::take_away(const std::string& object, const std::string& drop_off) {

@@ -19,7 +19,7 @@ class Scene {
   /// The same scene with ten times the time to plan, as far as the service gives it.
   [[nodiscard]] Scene with_more_time() const;
   /// Puts an object elsewhere.
-  void put(const std::string& object, Point to);
+  void put(const std::string& object, Pose to);
   /// Takes an object away to a drop-off. One that is then full is left out, and what is away is no longer wanted away.
   void take_away(const std::string& object, const std::string& drop_off);
 

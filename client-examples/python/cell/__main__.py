@@ -13,10 +13,11 @@ from .answers import (
     Deadlock,
     End,
     Grasp,
+    Grip,
     NoSpace,
     PartlyCleared,
-    Place,
     Plan,
+    Pose,
     Relocation,
     Removal,
     Step,
@@ -38,27 +39,29 @@ def number(value: float) -> str:
     return f"{value:z.3f}"
 
 
-def at(place: Place) -> str:
-    return f"{number(place.x)} {number(place.y)}"
+def at(place: Pose | Grip) -> str:
+    parts = (place.x, place.y, place.yaw)
+    return " ".join(number(part) for part in parts if part is not None)
 
 
 def carry_out(scene: Scene, step: Step) -> None:
     """Stands for the robot. A real one moves the object, looks at the table again, and makes its next scene of that."""
     match step:
-        case Relocation(name, start, to, grasp_yaw, release_yaw):
+        case Relocation(name, start, to, grasp, release, turn):
             put(scene, name, to)
-            yaws = f"grasp at {number(grasp_yaw)}, release at {number(release_yaw)}"
-            print(f"move {name} from {at(start)} to {at(to)}, {yaws}", flush=True)
-        case Removal(name, start, grasp_yaw, drop_off):
+            turned = f", turned by {number(turn)}" if turn is not None else ""
+            way = f"from {at(start)} to {at(to)}{turned}"
+            print(f"move {name} {way}, grasp at {at(grasp)}, release at {at(release)}", flush=True)
+        case Removal(name, start, grasp, drop_off):
             take_away(scene, name, drop_off)
-            print(f"take {name} from {at(start)} away to {drop_off}, grasp at {number(grasp_yaw)}", flush=True)
+            print(f"take {name} from {at(start)} away to {drop_off}, grasp at {at(grasp)}", flush=True)
 
 
 def finish(end: End) -> int:
     """The exit status: 0 if the goal is reached."""
     match end:
-        case Grasp(target, yaw):
-            print(f"grasp {target} at {number(yaw)}")
+        case Grasp(target, grip):
+            print(f"grasp {target} at {at(grip)}")
             return 0
         case AllAway():
             print("all taken away")

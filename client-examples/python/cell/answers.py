@@ -9,9 +9,22 @@ class Unknown(Exception):
 
 
 @dataclass(frozen=True)
-class Place:
+class Pose:
+    """Of an object: its own frame, or the centre of a disc."""
+
     x: float
     y: float
+    yaw: float | None
+    """None for a disc that may be grasped at every yaw."""
+
+
+@dataclass(frozen=True)
+class Grip:
+    """Of the gripper: its axis, and the direction of finger 0."""
+
+    x: float
+    y: float
+    yaw: float
 
 
 @dataclass(frozen=True)
@@ -19,10 +32,12 @@ class Relocation:
     """To another place on the table."""
 
     object: str
-    start: Place
-    to: Place
-    grasp_yaw: float
-    release_yaw: float
+    start: Pose
+    to: Pose
+    grasp: Grip
+    release: Grip
+    turn: float | None
+    """How far the object turns on the way, if that is said, rad."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +45,8 @@ class Removal:
     """Away from the table."""
 
     object: str
-    start: Place
-    grasp_yaw: float
+    start: Pose
+    grasp: Grip
     drop_off: str
 
 
@@ -40,7 +55,7 @@ class Grasp:
     """The target can be grasped."""
 
     target: str
-    yaw: float
+    grip: Grip
 
 
 @dataclass(frozen=True)
@@ -151,7 +166,7 @@ def _end(body: Any) -> Grasp | AllAway:
     """Without a target, objects are taken away and none is grasped in the end."""
     if body["target"] is None and body["target_grasp"] is None:
         return AllAway()
-    return Grasp(_text(body["target"]), float(body["target_grasp"]["yaw"]))
+    return Grasp(_text(body["target"]), _grip(body["target_grasp"]))
 
 
 def _step(step: Any) -> Step:
@@ -159,24 +174,34 @@ def _step(step: Any) -> Step:
         case "pick_place":
             return Relocation(
                 object=_text(step["object"]),
-                start=_place(step["from"]),
-                to=_place(step["to"]),
-                grasp_yaw=float(step["grasp"]["yaw"]),
-                release_yaw=float(step["release"]["yaw"]),
+                start=_pose(step["from"]),
+                to=_pose(step["to"]),
+                grasp=_grip(step["grasp"]),
+                release=_grip(step["release"]),
+                turn=_angle(step, "turn"),
             )
         case "pick_drop":
             return Removal(
                 object=_text(step["object"]),
-                start=_place(step["from"]),
-                grasp_yaw=float(step["grasp"]["yaw"]),
+                start=_pose(step["from"]),
+                grasp=_grip(step["grasp"]),
                 drop_off=_text(step["drop_off"]),
             )
         case action:
             raise Unknown(f"unknown action '{action}'")
 
 
-def _place(body: Any) -> Place:
-    return Place(float(body["x"]), float(body["y"]))
+def _pose(body: Any) -> Pose:
+    return Pose(float(body["x"]), float(body["y"]), _angle(body, "yaw"))
+
+
+def _grip(body: Any) -> Grip:
+    return Grip(float(body["x"]), float(body["y"]), float(body["yaw"]))
+
+
+def _angle(body: Any, name: str) -> float | None:
+    """What stands only where it says something."""
+    return float(body[name]) if name in body else None
 
 
 def _core(lock: Any) -> tuple[str, ...]:

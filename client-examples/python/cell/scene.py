@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from .answers import Place, Unknown
+from .answers import Pose, Unknown
 
 DEFAULT_LIMIT_MS = 1000
 LONGEST_LIMIT_MS = 60_000
@@ -18,10 +18,12 @@ def time_limit_ms(scene: Any) -> int:
     return min(max(named, 0), LONGEST_LIMIT_MS) if isinstance(named, int) else DEFAULT_LIMIT_MS
 
 
-def put(scene: Scene, name: str, to: Place) -> None:
+def put(scene: Scene, name: str, to: Pose) -> None:
     """Puts an object elsewhere."""
     item = _find(scene["objects"], "object", name)
     item["x"], item["y"] = to.x, to.y
+    if to.yaw is not None:
+        item["yaw"] = to.yaw
 
 
 def take_away(scene: Scene, name: str, to: str) -> None:

@@ -1,27 +1,36 @@
 import { exit, Failure } from "./failure.js";
 import { boolean, fields, list, number, text, type Fields } from "./json.js";
 
-export interface Point {
+/** Of an object: its own frame, or the centre of a disc, whose yaw is undefined if it may be grasped at every yaw. */
+export interface Pose {
   readonly x: number;
   readonly y: number;
+  readonly yaw: number | undefined;
+}
+
+/** Of the gripper: its axis, and the direction of finger 0. */
+export interface Grip extends Pose {
+  readonly yaw: number;
 }
 
 /** To another place on the table. */
 export interface Relocation {
   readonly action: "pick_place";
   readonly object: string;
-  readonly from: Point;
-  readonly to: Point;
-  readonly graspYaw: number;
-  readonly releaseYaw: number;
+  readonly from: Pose;
+  readonly to: Pose;
+  readonly grasp: Grip;
+  readonly release: Grip;
+  /** How far the object turns on the way, if that is said, rad. */
+  readonly turn: number | undefined;
 }
 
 /** Away from the table. */
 export interface Removal {
   readonly action: "pick_drop";
   readonly object: string;
-  readonly from: Point;
-  readonly graspYaw: number;
+  readonly from: Pose;
+  readonly grasp: Grip;
   readonly dropOff: string;
 }
 
@@ -30,7 +39,7 @@ export type Step = Relocation | Removal;
 /** What comes of the steps of a plan. */
 export type End =
   /** The target can be grasped. */
-  | { readonly kind: "grasp"; readonly target: string; readonly yaw: number }
+  | { readonly kind: "grasp"; readonly target: string; readonly grip: Grip }
   /** All that is wanted away is away. */
   | { readonly kind: "all_away" }
   | { readonly kind: "cleared" }
@@ -61,13 +70,19 @@ export type Answer =
   /** As far as is known the needed objects would have to go; time ran out. */
   | { readonly verdict: "timed_out"; readonly needed: readonly string[] };
 
-function readPoint(value: unknown, place: string): Point {
-  const point = fields(value, place);
-  return { x: number(point["x"], `${place}/x`), y: number(point["y"], `${place}/y`) };
+/** What stands only where it says something. */
+function readAngle(value: unknown, place: string): number | undefined {
+  return value === undefined ? undefined : number(value, place);
 }
 
-function readYaw(value: unknown, place: string): number {
-  return number(fields(value, place)["yaw"], `${place}/yaw`);
+function readPose(value: unknown, place: string): Pose {
+  const { x, y, yaw } = fields(value, place);
+  return { x: number(x, `${place}/x`), y: number(y, `${place}/y`), yaw: readAngle(yaw, `${place}/yaw`) };
+}
+
+function readGrip(value: unknown, place: string): Grip {
+  const pose = readPose(value, place);
+  return { ...pose, yaw: number(pose.yaw, `${place}/yaw`) };
 }
 
 function readIds(value: unknown, place: string): string[] {
@@ -89,16 +104,17 @@ function readStep(value: unknown, place: string): Step {
   const action = text(step["action"], `${place}/action`);
   const pick = {
     object: text(step["object"], `${place}/object`),
-    from: readPoint(step["from"], `${place}/from`),
-    graspYaw: readYaw(step["grasp"], `${place}/grasp`),
+    from: readPose(step["from"], `${place}/from`),
+    grasp: readGrip(step["grasp"], `${place}/grasp`),
   };
   switch (action) {
     case "pick_place":
       return {
         action,
         ...pick,
-        to: readPoint(step["to"], `${place}/to`),
-        releaseYaw: readYaw(step["release"], `${place}/release`),
+        to: readPose(step["to"], `${place}/to`),
+        release: readGrip(step["release"], `${place}/release`),
+        turn: readAngle(step["turn"], `${place}/turn`),
       };
     case "pick_drop":
       return { action, ...pick, dropOff: text(step["drop_off"], `${place}/drop_off`) };
@@ -112,8 +128,8 @@ function readEnd(answer: Fields): End {
   if (answer["target"] === null && answer["target_grasp"] === null) {
     return { kind: "all_away" };
   }
-  const yaw = readYaw(answer["target_grasp"], "/target_grasp");
-  return { kind: "grasp", target: text(answer["target"], "/target"), yaw };
+  const grip = readGrip(answer["target_grasp"], "/target_grasp");
+  return { kind: "grasp", target: text(answer["target"], "/target"), grip };
 }
 
 function readRemains(answer: Fields): End {

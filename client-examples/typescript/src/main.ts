@@ -1,7 +1,7 @@
 // A cell controller in small: asks for a plan, does its first step, and goes on with the plan as long as it holds, until the
 // goal is reached.
 
-import { isDone, rest, type Answer, type End, type Point, type Step } from "./answer.js";
+import { isDone, rest, type Answer, type End, type Pose, type Step } from "./answer.js";
 import { exit, Failure, type Exit } from "./failure.js";
 import { Scene } from "./scene.js";
 import { Service } from "./service.js";
@@ -23,23 +23,26 @@ function withIds(verdict: string, ids: readonly string[], rest: string): string 
   return ids.length > 0 ? `${verdict}: ${ids.join(", ")} ${rest}` : verdict;
 }
 
-function point({ x, y }: Point): string {
-  return `${decimals(x)} ${decimals(y)}`;
+function at({ x, y, yaw }: Pose): string {
+  const parts = yaw === undefined ? [x, y] : [x, y, yaw];
+  return parts.map(decimals).join(" ");
 }
 
 /** Stands for the robot: a real one picks and places here, and its camera says where the object came to lie. */
 function carryOut(scene: Scene, step: Step): Scene {
-  const { object, from, graspYaw } = step;
+  const { object, from, grasp } = step;
   switch (step.action) {
     case "pick_place": {
-      const moved = scene.with(object, step.to);
-      const yaws = `grasp at ${decimals(graspYaw)}, release at ${decimals(step.releaseYaw)}`;
-      console.log(`move ${object} from ${point(from)} to ${point(step.to)}, ${yaws}`);
+      const { to, turn, release } = step;
+      const moved = scene.with(object, to);
+      const turned = turn === undefined ? "" : `, turned by ${decimals(turn)}`;
+      const grips = `grasp at ${at(grasp)}, release at ${at(release)}`;
+      console.log(`move ${object} from ${at(from)} to ${at(to)}${turned}, ${grips}`);
       return moved;
     }
     case "pick_drop": {
       const left = scene.without(object, step.dropOff);
-      console.log(`take ${object} from ${point(from)} away to ${step.dropOff}, grasp at ${decimals(graspYaw)}`);
+      console.log(`take ${object} from ${at(from)} away to ${step.dropOff}, grasp at ${at(grasp)}`);
       return left;
     }
   }
@@ -48,7 +51,7 @@ function carryOut(scene: Scene, step: Step): Scene {
 function finish(end: End): Exit {
   switch (end.kind) {
     case "grasp":
-      console.log(`grasp ${end.target} at ${decimals(end.yaw)}`);
+      console.log(`grasp ${end.target} at ${at(end.grip)}`);
       return exit.reached;
     case "all_away":
       console.log("all taken away");

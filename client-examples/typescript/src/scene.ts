@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 
-import type { Point } from "./answer.js";
+import type { Pose } from "./answer.js";
 import { exit, Failure } from "./failure.js";
 import { isFields, type Fields } from "./json.js";
 
@@ -35,9 +35,11 @@ export class Scene {
   }
 
   /** The same scene with one object elsewhere. */
-  with(object: string, to: Point): Scene {
+  with(object: string, to: Pose): Scene {
+    const { x, y, yaw } = to;
+    const pose = yaw === undefined ? { x, y } : { x, y, yaw };
     const moved = this.items("objects", object).map((each) =>
-      isFields(each) && each["id"] === object ? { ...each, x: to.x, y: to.y } : each,
+      isFields(each) && each["id"] === object ? { ...each, ...pose } : each,
     );
     return new Scene({ ...this.fields, objects: moved });
   }
