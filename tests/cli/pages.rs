@@ -217,6 +217,9 @@ fn fields(document: &Value, object: &Value, prefix: &str, found: &mut BTreeSet<F
 }
 
 fn unit_and_range(description: &str, schema: &Value) -> (String, String) {
+    if schema["oneOf"].is_array() {
+        return (String::new(), "[by its kind](#shapes)".to_owned());
+    }
     let words = |list: &[&str]| list.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
     let kind = schema["type"].as_str().or_else(|| schema["type"][0].as_str()).unwrap();
     let number = |name: &str| schema[name].as_f64().unwrap();
@@ -233,10 +236,12 @@ fn unit_and_range(description: &str, schema: &Value) -> (String, String) {
         "string" if schema["minLength"].is_null() => ("text", format!("up to {} characters", schema["maxLength"])),
         "string" => ("text", format!("{} to {} characters", schema["minLength"], schema["maxLength"])),
         _ => {
-            let stated = |unit: &&&str| [".", ";"].iter().any(|end| description.contains(&format!(", {unit}{end}")));
+            let stated =
+                |unit: &&&str| [".", ";", ","].iter().any(|end| description.contains(&format!(", {unit}{end}")));
             let unit = ["m", "rad", "ms"].iter().find(stated).unwrap_or(&"count");
             assert!(*unit != "count" || kind == "integer", "no unit: {description}");
             let range = format!("{} to {}", number("minimum"), number("maximum"));
+            let range = range.replace(&core::f64::consts::FRAC_PI_2.to_string(), "π/2");
             (*unit, range.replace(&core::f64::consts::PI.to_string(), "π"))
         }
     };
@@ -246,7 +251,7 @@ fn unit_and_range(description: &str, schema: &Value) -> (String, String) {
 /// The default that the description states.
 fn default(description: &str) -> String {
     let stated = description.split_once("Default: ").and_then(|(_, rest)| rest.split_whitespace().next());
-    match stated.map(|value| value.trim_end_matches('.')) {
+    match stated.map(|value| value.trim_end_matches(['.', ';', ','])) {
         None => "none".to_owned(),
         Some("false") => "`false`".to_owned(),
         Some(value) => value.to_owned(),

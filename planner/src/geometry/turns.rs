@@ -46,7 +46,8 @@ pub(super) fn meets_within(
     band: f64,
 ) -> bool {
     let Some(core) = core else { return point_meets_within(finger, at, rho, band) };
-    let room = gap(finger, core, 0.0) - rho;
+    let [min, max] = sides(finger);
+    let room = core.distance_to_box(min, max) - rho;
     // No point of the finger moves farther than its corner.
     if room < 0.0 || band == 0.0 || room >= finger.corner_distance() * band {
         return room < 0.0;
@@ -76,17 +77,14 @@ fn point_meets_within(finger: &SweptRectangle, at: Vector2<f64>, rho: f64, band:
     least < last && (first < most || first == 0.0)
 }
 
+/// True if the finger comes nearer than `rho` (m) once it has turned.
 fn meets(finger: &SweptRectangle, core: &Core, rho: f64, turn: f64) -> bool {
-    gap(finger, core, turn) < rho
+    let [min, max] = sides(finger);
+    core.turned(direction(-turn)).box_comes_within(min, max, rho)
 }
 
-/// The distance of finger and core once the finger has turned, m; where they overlap minus the least translation that parts them.
-fn gap(finger: &SweptRectangle, core: &Core, turn: f64) -> f64 {
-    let (min, max) = (Vector2::new(finger.inner, -finger.half_width), Vector2::new(finger.outer, finger.half_width));
-    if turn == 0.0 {
-        return core.distance_to_box(min, max);
-    }
-    core.turned(direction(-turn)).distance_to_box(min, max)
+fn sides(finger: &SweptRectangle) -> [Vector2<f64>; 2] {
+    [Vector2::new(finger.inner, -finger.half_width), Vector2::new(finger.outer, finger.half_width)]
 }
 
 /// All turns at which the answer can change, in no order.

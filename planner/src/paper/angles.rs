@@ -49,7 +49,7 @@ pub(super) fn obstacle_extent(outer: f64, apart: f64, radius: f64) -> Option<Ext
 /// The number of obstacles of a movable object for which the tangent angle replaces Eq. 10.
 pub fn tangent_angles(scene: &Scene, object: ObjectIndex) -> usize {
     let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
-    let (outer, margin) = (radius(&grasped) + gripper.clearance(), gripper.margin());
+    let (outer, margin) = (radius(grasped) + gripper.clearance(), gripper.margin());
     let by_tangent = |other: &Footprint| {
         obstacle_extent(outer, distance(grasped.at(), other.at()), radius(other) + margin)
             .is_some_and(|extent| extent.by_tangent)

@@ -52,8 +52,8 @@ impl PolarHistogram {
     /// tolerance, which the paper doesn't have, widens each obstacle on both sides.
     pub fn around(scene: &Scene, object: ObjectIndex) -> Self {
         let (gripper, grasped) = (scene.gripper(), scene.object(object).footprint());
-        let outer = radius(&grasped) + gripper.clearance();
-        let finger = finger_angle(gripper.finger_width(), radius(&grasped));
+        let outer = radius(grasped) + gripper.clearance();
+        let finger = finger_angle(gripper.finger_width(), radius(grasped));
         let mut near: Vec<_> = scene
             .index()
             .within(grasped.at(), outer + gripper.margin())
@@ -67,7 +67,7 @@ impl PolarHistogram {
         let a = 1.0 + B * ((window - 1.0) / 2.0) * ((window - 1.0) / 2.0);
         let obstacles = near.into_iter().filter_map(|(other, disc)| {
             let apart = distance(disc.at(), grasped.at());
-            let extent = obstacle_extent(outer, apart, radius(&disc) + gripper.margin())?;
+            let extent = obstacle_extent(outer, apart, radius(disc) + gripper.margin())?;
             let total = extent.angle + finger + 2.0 * gripper.yaw_tolerance().max(ROUNDING);
             let towards = disc.at() - grasped.at();
             Some(LocalObstacle {

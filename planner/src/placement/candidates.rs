@@ -185,7 +185,7 @@ impl Candidates {
 
     /// True if no other object is nearer to `place` than `gap`, m. The index only narrows the choice.
     fn stands_free(&self, layout: &Layout<'_>, place: &Footprint, gap: f64) -> bool {
-        layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.gap(other) >= gap)
+        layout.near(place.at(), place.circumradius() + gap).all(|(_, other)| place.keeps_from(other, gap))
     }
 
     fn score(&self, at: Point2<f64>) -> f64 {

@@ -44,7 +44,9 @@ pub(super) fn orientations(layout: &Layout<'_>, object: ObjectIndex) -> Vec<f64>
 fn is_same_after_half_a_turn(stands: &Footprint, list: &[ListedGrasp], gripper: &Gripper) -> bool {
     let Some(core) = stands.core() else { return false };
     let opposite = |v: &Vector2<f64>| core.vertices().iter().any(|other| (v + other).norm() < SAME);
-    gripper.fingers() % 2 == 0 && list.iter().all(|grasp| grasp.offset() < SAME) && core.vertices().iter().all(opposite)
+    gripper.fingers().is_multiple_of(2)
+        && list.iter().all(|grasp| grasp.offset() < SAME)
+        && core.vertices().iter().all(opposite)
 }
 
 /// Yaws in [0, 2π), none twice.

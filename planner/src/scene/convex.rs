@@ -158,9 +158,20 @@ impl Core {
 
     /// Distance of a point, m; inside minus the least way out.
     pub fn distance_to_point(&self, point: Vector2<f64>) -> f64 {
-        let outside =
-            self.axes.iter().map(|axis| axis.normal.dot(&point) - axis.offset).fold(f64::NEG_INFINITY, f64::max);
+        let outside = self.beyond(point);
         if outside <= 0.0 { outside } else { self.nearest_edge(point) }
+    }
+
+    /// True if a point is nearer than `reach`, m.
+    pub(super) fn comes_within(&self, point: Vector2<f64>, reach: f64) -> bool {
+        let outside = self.beyond(point);
+        // Along an axis it is no farther than it is.
+        outside < reach && (outside <= 0.0 || self.nearest_edge(point) < reach)
+    }
+
+    /// How far a point is beyond the core along the axis where it is farthest, m.
+    fn beyond(&self, point: Vector2<f64>) -> f64 {
+        self.axes.iter().map(|axis| axis.normal.dot(&point) - axis.offset).fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn nearest_edge(&self, point: Vector2<f64>) -> f64 {
@@ -178,6 +189,13 @@ impl Core {
         to_self.chain(to_other).fold(f64::INFINITY, f64::min)
     }
 
+    /// True if another core is at least `distance` away, m.
+    pub(super) fn keeps_from(&self, other: &Self, other_at: Vector2<f64>, distance: f64) -> bool {
+        let apart = self.gap_along_axes(other, other_at).max(other.gap_along_axes(self, -other_at));
+        // Along an axis they are no farther apart than they are.
+        apart >= distance || apart > 0.0 && self.distance_to(other, other_at) >= distance
+    }
+
     /// The widest gap to another core along its own axes, m; negative where there is none.
     fn gap_along_axes(&self, other: &Self, other_at: Vector2<f64>) -> f64 {
         let gap = |axis: &Axis| {
@@ -190,6 +208,19 @@ impl Core {
     /// Distance of the axis-parallel box from `min` to `max`, m; where the two overlap minus the least translation that parts
     /// them. The box has positive sides.
     pub fn distance_to_box(&self, min: Vector2<f64>, max: Vector2<f64>) -> f64 {
+        let apart = self.gap_to_box(min, max);
+        if apart <= 0.0 { apart } else { self.nearest_of_box(min, max) }
+    }
+
+    /// True if the box comes nearer than `reach`, m.
+    pub fn box_comes_within(&self, min: Vector2<f64>, max: Vector2<f64>, reach: f64) -> bool {
+        let apart = self.gap_to_box(min, max);
+        // Along an axis they are no farther apart than they are.
+        apart < reach && (apart <= 0.0 || self.nearest_of_box(min, max) < reach)
+    }
+
+    /// The widest gap to a box along the axes of either, m.
+    fn gap_to_box(&self, min: Vector2<f64>, max: Vector2<f64>) -> f64 {
         let (mut low, mut high) = (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY));
         for v in &self.vertices {
             (low, high) = (low.inf(v), high.sup(v));
@@ -198,10 +229,11 @@ impl Core {
         let (middle, half) = ((min + max) / 2.0, (max - min) / 2.0);
         let nearest = |n: &Vector2<f64>| n.dot(&middle) - n.x.abs() * half.x - n.y.abs() * half.y;
         let along = self.axes.iter().map(|axis| nearest(&axis.normal) - axis.offset);
-        let apart = along.fold(gaps.x.max(gaps.y), f64::max);
-        if apart <= 0.0 {
-            return apart;
-        }
+        along.fold(gaps.x.max(gaps.y), f64::max)
+    }
+
+    /// The distance of a box that does not overlap, m.
+    fn nearest_of_box(&self, min: Vector2<f64>, max: Vector2<f64>) -> f64 {
         let to_box = self.vertices.iter().map(|v| length((min - v).sup(&(v - max)).sup(&Vector2::zeros())));
         let corners = [min, Vector2::new(max.x, min.y), max, Vector2::new(min.x, max.y)];
         let to_self = corners.into_iter().map(|corner| self.nearest_edge(corner));

@@ -99,11 +99,21 @@ impl Footprint {
 
     /// True if its edge is nearer to `point` than `reach`, m.
     pub fn comes_within(&self, point: Point2<f64>, reach: f64) -> bool {
-        let away = match self.core() {
-            None => distance(self.at(), point),
-            Some(core) => core.distance_to_point(point - self.at()),
-        };
-        away < reach + self.radius()
+        let reach = reach + self.radius();
+        match self.core() {
+            None => distance(self.at(), point) < reach,
+            Some(core) => core.comes_within(point - self.at(), reach),
+        }
+    }
+
+    /// True if another footprint is at least `gap` away from edge to edge, m.
+    pub fn keeps_from(&self, other: &Self, gap: f64) -> bool {
+        match (self.core(), other.core()) {
+            (Some(core), Some(others)) => {
+                core.keeps_from(others, other.at() - self.at(), gap + self.radius() + other.radius())
+            }
+            _ => self.gap(other) >= gap,
+        }
     }
 
     /// Distance from edge to edge, m; where the two overlap minus the least translation that parts them.

@@ -63,7 +63,7 @@ pub(crate) fn edge(footprint: &Footprint) -> Vec<[f64; 2]> {
         .map(|angle| {
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
             let far = |v: &&nalgebra::Vector2<f64>| v.x * cos + v.y * sin;
-            let v = corners.iter().max_by(|a, b| far(a).total_cmp(&far(b))).unwrap();
+            let v = corners.iter().max_by(|a, b| far(a).total_cmp(&far(b))).expect("a corner");
             [v.x + radius * cos, v.y + radius * sin]
         })
         .collect()

@@ -109,6 +109,6 @@ fn rectangle(min: Point2<f64>, max: Point2<f64>) -> Rectangle {
     let objects = vec![object("t", [0.0; 3], ShapeDraft::disc(0.1), None)];
     let goal = Some(GoalDraft::Target("t".into()));
     let draft = SceneDraft { table, gripper: hand(), objects, goal, ..SceneDraft::default() };
-    let (scene, _) = Scene::new(draft, &SceneLimits::default()).unwrap();
+    let (scene, _) = Scene::new(draft, &SceneLimits::default()).expect("a sound scene");
     scene.table().keep_out()[0]
 }

@@ -91,7 +91,7 @@ proptest! {
             points: points.iter().map(|&(x, y)| [Some(x), Some(y)]).collect(),
             corner_radius: None,
         };
-        let farthest = points.iter().map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+        let farthest = points.iter().map(|(x, y)| (x * x + y * y).sqrt()).fold(0.0, f64::max);
         let mut more = points.clone();
         more.push((farthest, 0.0));
         let of = |shape| pair(hand, radius, shape, place).map(|scene| yaws(&scene));

@@ -262,7 +262,7 @@ fn one_of_several_candidates_is_named_and_all_are_bounded() {
     assert_eq!((stated.target.as_deref(), stated.cost), (Some("west"), Some(Cost::new(1))));
     caught(&scene, &Statement { target: None, ..stated.clone() }, &[MissingPart]);
     caught(&scene, &Statement { target: Some("nobody".into()), ..stated.clone() }, &[UnknownObject]);
-    caught(&scene, &Statement { target: Some("target".into()), ..stated.clone() }, &[TargetBlocked]);
+    caught(&scene, &Statement { target: Some("target".into()), ..stated.clone() }, &[WrongAxis, TargetBlocked]);
     caught(&scene, &Statement { target: Some("cap".into()), ..stated.clone() }, &[WrongTarget]);
     let with = |set: &[&str]| Statement { landmarks: Some(vec![ids(set)]), ..stated.clone() };
     // What holds for one candidate alone proves nothing.

@@ -79,7 +79,7 @@ mod tests {
             .disc("t", 1.4, 0.3, 0.2)
             .build("t");
         let raster = Raster::new(0.01, scene.table()).unwrap();
-        let blots = scene.objects().iter().map(|object| Blot::disc(&object.footprint(), 0.013));
+        let blots = scene.objects().iter().map(|object| Blot::disc(object.footprint(), 0.013));
         let areas = scene.table().keep_out().iter().map(|area| Blot::round(area, 0.072));
         let image = image(&raster, &blots.chain(areas).collect::<Vec<_>>(), &Budget::unlimited()).unwrap();
         let mut black = 0;

@@ -53,7 +53,7 @@ fn by_plain_counting(scene: &Scene, raster: &Raster, object: ObjectIndex) -> Opt
         if placed.gap_inside(&scene.table().top()) > INSIDE
             && !keep_out
             && others.iter().all(|other| placed.gap(other) >= margin + INSIDE)
-            && placed.gap(&target) >= gripper.clearance() + margin + INSIDE
+            && placed.gap(target) >= gripper.clearance() + margin + INSIDE
             && best.is_none_or(|best| far(at) > far(best))
             && marked(at)
         {
