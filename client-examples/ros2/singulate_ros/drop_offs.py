@@ -10,7 +10,7 @@ from singulate_ros.failure import Failure
 from singulate_ros.settings import Settings
 
 if TYPE_CHECKING:
-    from singulate_ros.footprint import Placement
+    from singulate_ros.footprint import Footprint
 
 # How the settings say that a drop-off takes any number of objects.
 ANY_NUMBER = -1
@@ -59,9 +59,8 @@ def configured(settings: Settings) -> list[Configured]:
     return [each for each in found if each.capacity != 0]
 
 
-def middle(solids: list[Placement], name: str) -> tuple[float, float]:
+def middle(solids: list[Footprint], name: str) -> tuple[float, float]:
     """Where the gripper opens over a drop-off: over the middle of its solids."""
     if not solids:
         raise Failure(f"the planning scene has no solid of the drop-off '{name}'")
-    x, y = (sum(each.position[axis] for each in solids) / len(solids) for axis in (0, 1))
-    return x, y
+    return sum(each.x for each in solids) / len(solids), sum(each.y for each in solids) / len(solids)

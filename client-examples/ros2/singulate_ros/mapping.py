@@ -4,12 +4,12 @@ All is in one frame, metres, z up. A message in another frame is refused; nothin
 
 The table is a collision object that is one box along the frame's axes. Its top counts. The other collision objects are
 fixed, the detections can be moved. What stands beside the table or under its top is left out: the program that moves the arm has
-to see to it. What leans over the table from beside it is refused, as are meshes and planes.
+to see to it. What leans over the table from beside it is refused, as are planes.
 
-An object covers the smallest circle about its middle that holds its shadow on the table: half the diagonal for an
-upright box. Around a plate's bounding box that circle would be 1.4 times the plate, and plates that stand close would
-overlap. So those of the round classes count as upright cylinders inside their boxes: half the larger side, and more the
-further they lean.
+An object covers its shadow on the table, and is as high over the table as its top. A box is a rectangle with its yaw; one
+that leans is the polygon of its corners. Cylinders and spheres are discs: a cylinder's is wider the further it leans. A mesh
+is the convex hull of its vertices, and a warning says so. A detection is its bounding box. Those of the round classes are
+upright cylinders inside their boxes: half the larger side, and more the further they lean.
 
 A drop-off is a collision object too. It is an obstacle only where it stands on the table.
 """
@@ -17,15 +17,17 @@ A drop-off is a collision object too. It is an obstacle only where it stands on 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Iterator, TypedDict
+from typing import TYPE_CHECKING, Callable, Iterator, Sequence, TypedDict
 
 from singulate_ros.drop_offs import DropOff, configured, middle
 from singulate_ros.failure import Failure
-from singulate_ros.footprint import Footprint, Placement, box, cylinder, sphere
+from singulate_ros.footprint import Footprint, Placement, Shape, box, cylinder, mesh, sphere
+from singulate_ros.hull import Polygon, overlap
 from singulate_ros.settings import Settings
 from singulate_ros.wanted import Wanted, want
 
 if TYPE_CHECKING:
+    from geometry_msgs.msg import Pose
     from moveit_msgs.msg import CollisionObject, PlanningScene
     from shape_msgs.msg import SolidPrimitive
     from vision_msgs.msg import Detection3D, Detection3DArray
@@ -36,6 +38,7 @@ BOX, SPHERE, CYLINDER = 1, 2, 3
 SQUARE_TOLERANCE = 1e-3
 # What is no higher above the table's top than this, m, is the table's or under it: no finger meets it.
 FLUSH = 1e-3
+UNDERSTOOD = "boxes, cylinders, spheres and meshes are understood"
 
 
 class Rectangle(TypedDict):
@@ -56,14 +59,25 @@ class Fingers(TypedDict):
 class Gripper(Fingers, total=False):
     max_opening: float
     opening: str
+    finger_length: float
+    palm_radius: float
+    tip_height: float
 
 
-class Disc(TypedDict):
+class Placed(TypedDict):
     id: str
     x: float
     y: float
-    radius: float
+    height: float
     fixed: bool
+
+
+class Item(Placed, total=False):
+    """A disc by its radius, all else by its shape, which is turned by yaw."""
+
+    radius: float
+    yaw: float
+    shape: Shape
 
 
 class TimeLimit(TypedDict):
@@ -84,12 +98,15 @@ class Scene(Wanted, DropOffs):
 
     table: Rectangle
     gripper: Gripper
-    objects: list[Disc]
+    objects: list[Item]
     settings: Limits
 
 
-def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settings: Settings) -> Scene:
-    """What is detected can be moved; the other collision objects are fixed. One that is both is taken as detected."""
+def to_scene(
+    detections: Detection3DArray, planning_scene: PlanningScene, settings: Settings, warn: Callable[[str], object]
+) -> Scene:
+    """What is detected can be moved; the other collision objects are fixed. One that is both is taken as detected. `warn`
+    is told what is planned as more than it is."""
     if planning_scene.is_diff:
         raise Failure("the planning scene is a diff; all of it is needed")
     _check_frame("the detections", detections.header.frame_id, settings)
@@ -102,11 +119,11 @@ def to_scene(detections: Detection3DArray, planning_scene: PlanningScene, settin
         if obstacle.id not in detected:
             solids = _solids(obstacle, settings)
             found += [(name, each, True) for name, each in solids if _is_on(table, table_top, each, name)]
-    objects = [
-        Disc(id=name, x=footprint.x, y=footprint.y, radius=footprint.radius, fixed=fixed)
-        for name, footprint, fixed in found
-    ]
+    objects = [_item(name, footprint, footprint.top - table_top, fixed) for name, footprint, fixed in found]
     _check_ids(objects)
+    for name, footprint, _ in found:
+        if footprint.assumed:
+            warn(f"'{name}' {footprint.assumed}")
     scene = Scene(table=table, gripper=_gripper(settings), objects=objects, settings=_limits(settings))
     want(scene, settings, {each["id"] for each in objects})
     if drop_offs := configured(settings):
@@ -120,9 +137,18 @@ def drop_places(planning_scene: PlanningScene, settings: Settings) -> dict[str, 
     places = {}
     for drop_off in configured(settings):
         obstacles = [each for each in planning_scene.world.collision_objects if each.id == drop_off.name]
-        solids = [placement for obstacle in obstacles for _, placement in _placed(obstacle, settings)]
+        solids = [footprint for obstacle in obstacles for _, footprint in _solids(obstacle, settings)]
         places[drop_off.name] = middle(solids, drop_off.name)
     return places
+
+
+def _item(name: str, footprint: Footprint, height: float, fixed: bool) -> Item:
+    item = Item(id=name, x=footprint.x, y=footprint.y, height=height, fixed=fixed)
+    if footprint.shape is None:
+        item["radius"] = footprint.radius
+    else:
+        item["yaw"], item["shape"] = footprint.yaw, footprint.shape
+    return item
 
 
 def _gripper(settings: Settings) -> Gripper:
@@ -137,6 +163,12 @@ def _gripper(settings: Settings) -> Gripper:
         gripper["max_opening"] = settings.max_opening
     if settings.opening:
         gripper["opening"] = settings.opening
+    if not math.isnan(settings.finger_length):
+        gripper["finger_length"] = settings.finger_length
+    if not math.isnan(settings.palm_radius):
+        gripper["palm_radius"] = settings.palm_radius
+    if not math.isnan(settings.tip_height):
+        gripper["tip_height"] = settings.tip_height
     return gripper
 
 
@@ -154,7 +186,7 @@ def _check_frame(whose: str, frame: str, settings: Settings) -> None:
         raise Failure(f"{whose}: frame '{frame}' is not the table's, '{settings.frame}'")
 
 
-def _check_ids(objects: list[Disc]) -> None:
+def _check_ids(objects: list[Item]) -> None:
     names = [each["id"] for each in objects]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
@@ -203,10 +235,12 @@ def _class(detection: Detection3D) -> str:
 
 
 def _solids(obstacle: CollisionObject, settings: Settings) -> Iterator[tuple[str, Footprint]]:
-    if obstacle.meshes or obstacle.planes:
-        raise Failure(f"'{obstacle.id}' has meshes or planes; boxes, cylinders and spheres are understood")
-    for index, (solid, placement) in enumerate(_placed(obstacle, settings)):
-        name = obstacle.id if len(obstacle.primitives) == 1 else f"{obstacle.id}/{index}"
+    if obstacle.planes:
+        raise Failure(f"'{obstacle.id}' has planes; {UNDERSTOOD}")
+    solids, placements = _placed(obstacle, settings), _places(obstacle, obstacle.mesh_poses, len(obstacle.meshes))
+    alone = len(solids) + len(placements) == 1
+    for index, (solid, placement) in enumerate(solids):
+        name = obstacle.id if alone else f"{obstacle.id}/{index}"
         if solid.type == BOX:
             length, width, height = _dimensions(solid, 3, name)
             yield name, box(placement, (length, width, height), name)
@@ -217,17 +251,24 @@ def _solids(obstacle: CollisionObject, settings: Settings) -> Iterator[tuple[str
             (radius,) = _dimensions(solid, 1, name)
             yield name, sphere(placement, radius, name)
         else:
-            raise Failure(f"'{name}' is a solid of type {solid.type}; boxes, cylinders and spheres are understood")
+            raise Failure(f"'{name}' is a solid of type {solid.type}; {UNDERSTOOD}")
+    for index, (surface, placement) in enumerate(zip(obstacle.meshes, placements), len(solids)):
+        name = obstacle.id if alone else f"{obstacle.id}/{index}"
+        yield name, mesh(placement, ((vertex.x, vertex.y, vertex.z) for vertex in surface.vertices), name)
 
 
 def _placed(obstacle: CollisionObject, settings: Settings) -> list[tuple[SolidPrimitive, Placement]]:
-    """Its solids, whose poses are relative to its own."""
+    """Its solids, each where it is."""
     _check_frame(obstacle.id, obstacle.header.frame_id, settings)
-    if len(obstacle.primitives) != len(obstacle.primitive_poses):
+    return list(zip(obstacle.primitives, _places(obstacle, obstacle.primitive_poses, len(obstacle.primitives))))
+
+
+def _places(obstacle: CollisionObject, poses: Sequence[Pose], count: int) -> list[Placement]:
+    """Of its parts, whose poses are relative to its own."""
+    if len(poses) != count:
         raise Failure(f"'{obstacle.id}' has not one pose for each solid")
     whole = Placement.of(obstacle.pose, obstacle.id)
-    places = [whole.then(Placement.of(pose, obstacle.id)) for pose in obstacle.primitive_poses]
-    return list(zip(obstacle.primitives, places))
+    return [whole.then(Placement.of(pose, obstacle.id)) for pose in poses]
 
 
 def _dimensions(solid: SolidPrimitive, count: int, whose: str) -> list[float]:
@@ -241,8 +282,14 @@ def _is_on(table: Rectangle, table_top: float, footprint: Footprint, name: str) 
     beyond_x = max(table["x_min"] - footprint.x, footprint.x - table["x_max"], 0.0)
     beyond_y = max(table["y_min"] - footprint.y, footprint.y - table["y_max"], 0.0)
     beyond = math.hypot(beyond_x, beyond_y)
-    if footprint.top <= table_top + FLUSH or beyond >= footprint.radius:
+    covers = overlap(footprint.corners, _corners(table)) if footprint.corners else beyond < footprint.radius
+    if footprint.top <= table_top + FLUSH or not covers:
         return False
     if beyond > 0.0:
         raise Failure(f"'{name}' reaches over the table from beside it")
     return True
+
+
+def _corners(table: Rectangle) -> Polygon:
+    left, right, lower, upper = table["x_min"], table["x_max"], table["y_min"], table["y_max"]
+    return [(left, lower), (right, lower), (right, upper), (left, upper)]

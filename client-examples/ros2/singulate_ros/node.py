@@ -36,8 +36,8 @@ class PlanNode(Node):
     def _plan(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         settings = Settings(**{name: self.get_parameter(name).value for name in asdict(Settings())})
         try:
-            seen, clock = self._seen, self.get_clock()
-            poses, words = plan(seen, self._planning_scene(), settings, lambda: clock.now().to_msg(), Pose)
+            seen, clock, log = self._seen, self.get_clock(), self.get_logger()
+            poses, words = plan(seen, self._planning_scene(), settings, lambda: clock.now().to_msg(), Pose, log.warning)
             self._poses.publish(PoseArray(header=seen.header, poses=poses))
             response.success, response.message = True, words
         except Failure as failure:

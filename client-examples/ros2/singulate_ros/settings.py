@@ -41,10 +41,16 @@ class Settings:
     # How far the hand opens, and how far it does; left unset, it opens as far as each object needs.
     max_opening: float = math.nan
     opening: str = ""
+    # From the fingers' tips to the palm, and the palm's radius: both, or neither, and then no palm is planned with.
+    finger_length: float = math.nan
+    palm_radius: float = math.nan
+    # The tips over the table where they grasp what is low. Left unset, 0.
+    tip_height: float = math.nan
     time_limit_ms: int = 1000
     # How deep detections may overlap: what perception errs by. Left unset, the service's own tolerance holds.
     overlap_tolerance: float = math.nan
-    # The height of the tool's frame where it grasps and releases.
+    # The height of the tool's frame where it grasps and releases. With a finger_length: that of what is no higher than
+    # finger_length and tip_height; over anything higher the tool stays up by the difference.
     tool_z: float = math.nan
     # The same where it releases over a drop-off.
     drop_z: float = math.nan

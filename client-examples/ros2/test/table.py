@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from moveit_msgs.msg import CollisionObject, PlanningScene, PlanningSceneWorld
-from shape_msgs.msg import SolidPrimitive
+from shape_msgs.msg import Mesh, SolidPrimitive
 from std_msgs.msg import Header
 from vision_msgs.msg import BoundingBox3D, Detection3D, Detection3DArray, ObjectHypothesis, ObjectHypothesisWithPose
 
@@ -36,6 +36,15 @@ def detection(name: str, kind: str, x: float, y: float, width: float, depth: flo
 def solid(name: str, kind: int, dimensions: list[float], at: Pose) -> CollisionObject:
     primitive = SolidPrimitive(type=kind, dimensions=dimensions)
     return CollisionObject(header=HEADER, id=name, pose=at, primitives=[primitive], primitive_poses=[Pose()])
+
+
+def mesh(name: str, vertices: list[tuple[float, float, float]], at: Pose) -> CollisionObject:
+    surface = Mesh(vertices=[Point(x=x, y=y, z=z) for x, y, z in vertices])
+    return CollisionObject(header=HEADER, id=name, pose=at, meshes=[surface], mesh_poses=[Pose()])
+
+
+def no_warning(words: str) -> None:
+    raise AssertionError(words)
 
 
 def table(orientation: Quaternion | None = None) -> CollisionObject:

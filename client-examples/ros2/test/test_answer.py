@@ -1,34 +1,46 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from geometry_msgs.msg import Pose
-from table import SETTINGS, detections, planning_scene, table, vase
+from table import SETTINGS, detection, detections, no_warning, planning_scene, table, vase
 
-from singulate_ros.answer import Grip, Plan, read_answer, to_poses
+from singulate_ros.answer import Grip, Plan, read_answer, read_warnings, to_poses
 from singulate_ros.failure import Failure
 from singulate_ros.mapping import to_scene
 
-SCENE = to_scene(detections(), planning_scene(table(), vase()), SETTINGS)
+BOX = detection("box", "carton", 0.7, 0.1, 0.06, 0.08)
+SCENE = to_scene(detections(BOX), planning_scene(table(), vase()), SETTINGS, no_warning)
 MOVE = {
     "action": "pick_place",
     "object": "plate-2",
     "from": {"x": 0.4, "y": 0.36},
     "to": {"x": 0.1, "y": 0.2},
-    "grasp": {"yaw": 0.5},
-    "release": {"yaw": 0},
+    "grasp": {"x": 0.4, "y": 0.36, "yaw": 0.5},
+    "release": {"x": 0.1, "y": 0.2, "yaw": 0},
+}
+TURN = {
+    "action": "pick_place",
+    "object": "box",
+    "from": {"x": 0.7, "y": 0.1, "yaw": 0.3},
+    "to": {"x": 0.1, "y": 0.4, "yaw": 1.8},
+    "grasp": {"x": 0.71, "y": 0.12, "yaw": 1.25},
+    "release": {"x": 0.08, "y": 0.41, "yaw": 2.75},
+    "turn": 1.5,
 }
 DROP = {
     "action": "pick_drop",
     "object": "plate-1",
     "from": {"x": 0.5, "y": 0.29},
-    "grasp": {"yaw": 0.5},
+    "grasp": {"x": 0.5, "y": 0.29, "yaw": 0.5},
     "drop_off": "tray",
 }
 PLACES = {"tray": (1.2, 0.3)}
-RELOCATE = {"verdict": "relocate", "target": "cup", "relocations": [MOVE], "target_grasp": {"yaw": 0.25}}
+GRASP = {"x": 0.4, "y": 0.25, "yaw": 0.25}
+RELOCATE = {"verdict": "relocate", "target": "cup", "relocations": [MOVE], "target_grasp": GRASP}
 AWAY = {"verdict": "relocate", "target": None, "relocations": [DROP], "target_grasp": None}
 PARTLY = {
     "verdict": "partly_cleared",
@@ -48,6 +60,21 @@ def test_each_relocation_has_a_grasp_and_a_release_and_the_targets_grasp_comes_l
     plan = read_answer(RELOCATE, SCENE, PLACES)
     assert plan.grips == [Grip(0.4, 0.36, 0.5), Grip(0.1, 0.2, 0.0), Grip(0.4, 0.25, 0.25)]
     assert plan.words == "move plate-2, then grasp cup"
+
+
+def test_the_gripper_stands_where_the_answer_says_beside_the_middle_too() -> None:
+    plan = read_answer({**RELOCATE, "relocations": [TURN], "target_grasp": {**GRASP, "x": 0.42}}, SCENE, PLACES)
+    assert plan.grips == [Grip(0.71, 0.12, 1.25), Grip(0.08, 0.41, 2.75), Grip(0.42, 0.25, 0.25)]
+    assert plan.words == "move box turned by 1.500 to yaw 1.800, then grasp cup"
+
+
+def test_over_what_is_higher_than_the_fingers_are_long_the_tool_stays_up() -> None:
+    short = replace(SETTINGS, finger_length=0.06, palm_radius=0.03, tip_height=0.01)
+    scene = to_scene(detections(BOX), planning_scene(table()), short, no_warning)
+    plan = read_answer({**RELOCATE, "relocations": [DROP, TURN]}, scene, PLACES)
+    assert [grip.lift for grip in plan.grips] == pytest.approx(5 * [0.03])
+    heights = [pose.position.z for pose in to_poses(plan, 0.9, 1.0, Pose)]
+    assert heights == pytest.approx([0.93, 1.03, 0.93, 0.93, 0.93])
 
 
 def test_what_is_taken_away_is_released_over_its_drop_off_at_the_yaw_of_its_grasp() -> None:
@@ -112,6 +139,11 @@ def test_a_verdict_or_an_action_that_is_not_known_is_refused() -> None:
         {**RELOCATE, "target_grasp": None},
         {**RELOCATE, "target": None},
         {**RELOCATE, "target": "spoon"},
+        {**RELOCATE, "target_grasp": {"yaw": 0.25}},
+        {**RELOCATE, "relocations": [{**MOVE, "object": "spoon"}]},
+        {**RELOCATE, "relocations": [{**MOVE, "grasp": {"yaw": 0.5}}]},
+        {**RELOCATE, "relocations": [{**TURN, "turn": "half"}]},
+        {**RELOCATE, "relocations": [{**TURN, "to": {"x": 0.1, "y": 0.4}}]},
         {"verdict": "no_space"},
         {**AWAY, "relocations": [{**DROP, "drop_off": "shelf"}]},
         {"verdict": "cleared"},
@@ -121,3 +153,11 @@ def test_a_verdict_or_an_action_that_is_not_known_is_refused() -> None:
 )
 def test_an_answer_of_another_shape_is_refused(answer: Any) -> None:
     refused("not understood", answer)
+
+
+def test_warnings_are_read_in_the_words_of_the_service() -> None:
+    warning = {"code": "no_grasp", "pointer": "/objects/7", "detail": "'napkin' has no grasp"}
+    assert read_warnings({"warnings": [warning]}) == ["no_grasp /objects/7: 'napkin' has no grasp"]
+    for torn in (None, {}, {"warnings": None}, {"warnings": [{"code": "no_grasp"}]}):
+        with pytest.raises(Failure, match="not understood"):
+            read_warnings(torn)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from table import DROPPING, SETTINGS, detections, planning_scene, table, tray, vase
+from table import DROPPING, SETTINGS, detections, mesh, no_warning, planning_scene, pose, table, tray, vase
 
 from singulate_ros.failure import Failure
 from singulate_ros.mapping import Scene, drop_places, to_scene
@@ -14,12 +14,12 @@ SEEN = planning_scene(table(), tray(), vase())
 
 
 def scene(**changes: Any) -> Scene:
-    return to_scene(detections(), SEEN, replace(DROPPING, **changes))
+    return to_scene(detections(), SEEN, replace(DROPPING, **changes), no_warning)
 
 
 def refused(words: str, settings: Settings) -> None:
     with pytest.raises(Failure, match=words):
-        to_scene(detections(), SEEN, settings)
+        to_scene(detections(), SEEN, settings, no_warning)
 
 
 def test_a_drop_off_accepts_what_is_of_its_classes_and_is_no_obstacle_beside_the_table() -> None:
@@ -36,6 +36,8 @@ def test_a_drop_off_without_limits_has_none_in_the_scene_and_a_full_one_is_left_
 
 def test_a_drop_off_is_in_the_middle_of_its_solids() -> None:
     assert drop_places(SEEN, DROPPING) == {"tray": pytest.approx((1.25, 0.35))}
+    dish = mesh("tray", [(0.0, 0.0, 0.0), (0.2, 0.0, 0.0), (0.2, 0.1, 0.0), (0.0, 0.1, 0.0)], pose(1.2, 0.3, 0.5))
+    assert drop_places(planning_scene(table(), dish), DROPPING) == {"tray": pytest.approx((1.3, 0.35))}
     with pytest.raises(Failure, match="no solid of the drop-off 'tray'"):
         drop_places(planning_scene(table()), DROPPING)
 
@@ -72,6 +74,9 @@ def test_exactly_one_thing_is_wanted() -> None:
 
 def test_a_hand_and_a_destination_go_with_the_scene_where_they_are_set() -> None:
     assert not {"max_opening", "opening"} & scene()["gripper"].keys() and "destination" not in scene()["settings"]
+    assert not {"finger_length", "palm_radius", "tip_height"} & scene()["gripper"].keys()
     made = scene(max_opening=0.16, opening="full", destination="drop_off")
     assert (made["gripper"]["max_opening"], made["gripper"]["opening"]) == (0.16, "full")
+    palm = scene(finger_length=0.12, palm_radius=0.05, tip_height=0.005)["gripper"]
+    assert (palm["finger_length"], palm["palm_radius"], palm["tip_height"]) == (0.12, 0.05, 0.005)
     assert made["settings"]["destination"] == "drop_off"

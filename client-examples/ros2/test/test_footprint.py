@@ -4,7 +4,8 @@ import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
 
 from singulate_ros.failure import Failure
-from singulate_ros.footprint import Footprint, Placement, box, cylinder, sphere
+from singulate_ros.footprint import MOST_CORNERS, Footprint, Placement, box, cylinder, mesh, sphere
+from singulate_ros.hull import area, hull
 
 
 def turned(axis: str, angle: float) -> Quaternion:
@@ -22,17 +23,53 @@ def check(footprint: Footprint, radius: float, top: float) -> None:
     assert footprint.top == pytest.approx(top, abs=1e-12)
 
 
+def check_rectangle(footprint: Footprint, yaw: float, length: float, width: float) -> None:
+    assert (footprint.x, footprint.y, footprint.top) == pytest.approx((0.3, 0.2, 0.85))
+    assert math.sin(footprint.yaw - yaw) == pytest.approx(0.0), "a rectangle is the same after half a turn"
+    assert footprint.shape == {"kind": "rectangle", "length": pytest.approx(length), "width": pytest.approx(width)}
+    assert area(footprint.corners) == pytest.approx(length * width)
+
+
 @pytest.mark.parametrize("yaw", [0.0, 0.4, math.pi / 2, -2.0])
-def test_an_upright_box_covers_the_circle_of_its_corners_whatever_its_yaw(yaw: float) -> None:
-    check(box(placed(turned("z", yaw)), (0.06, 0.08, 0.1), "it"), 0.05, 0.85)
+def test_an_upright_box_covers_its_rectangle_whatever_its_yaw(yaw: float) -> None:
+    check_rectangle(box(placed(turned("z", yaw)), (0.06, 0.08, 0.1), "it"), yaw, 0.06, 0.08)
 
 
-def test_a_box_on_its_side_covers_the_circle_of_the_corners_that_lie_now() -> None:
-    check(box(placed(turned("x", math.pi / 2)), (0.06, 0.1, 0.08), "it"), 0.05, 0.85)
+def test_a_box_on_its_side_covers_the_rectangle_that_lies_now() -> None:
+    check_rectangle(box(placed(turned("x", math.pi / 2)), (0.06, 0.1, 0.08), "it"), math.pi / 2, 0.08, 0.06)
+    check_rectangle(box(placed(turned("y", math.pi / 2)), (0.1, 0.06, 0.08), "it"), math.pi / 2, 0.06, 0.08)
 
 
-def test_a_box_on_its_edge_is_as_high_as_its_diagonal() -> None:
-    check(box(placed(turned("x", math.pi / 4)), (0.06, 0.1, 0.1), "it"), math.hypot(0.03, 0.05 * 2**0.5), 0.8 + 0.05 * 2**0.5)
+def test_a_box_that_leans_by_no_more_than_noise_has_the_rectangle_of_its_corners() -> None:
+    footprint = box(placed(turned("y", 0.005)), (0.06, 0.08, 0.1), "it")
+    assert footprint.shape is not None and footprint.shape["kind"] == "rectangle"
+    assert footprint.shape["length"] == pytest.approx(0.06 * math.cos(0.005) + 0.1 * math.sin(0.005))
+
+
+def test_a_box_on_its_edge_covers_the_polygon_of_its_corners_and_is_as_high_as_its_diagonal() -> None:
+    footprint = box(placed(turned("x", math.pi / 4)), (0.06, 0.1, 0.1), "it")
+    assert footprint.shape is not None and footprint.shape["kind"] == "polygon"
+    assert area(footprint.corners) == pytest.approx(0.06 * 0.1 * 2**0.5)
+    assert footprint.top == pytest.approx(0.8 + 0.05 * 2**0.5)
+
+
+def test_a_mesh_of_many_corners_covers_a_polygon_of_few_that_holds_them() -> None:
+    around = [(0.1 * math.cos(angle), 0.05 * math.sin(angle), 0.02) for angle in (math.tau * i / 90 for i in range(90))]
+    footprint = mesh(placed(turned("z", 0.4)), around, "it")
+    assert footprint.shape is not None and len(footprint.shape["points"]) == MOST_CORNERS
+    exact = hull(placed(turned("z", 0.4)).at(vertex)[:2] for vertex in around)
+    assert len(exact) == 90 and area(exact) < area(footprint.corners) < 1.02 * area(exact)
+    assert area(hull([*footprint.corners, *exact])) == pytest.approx(area(footprint.corners), rel=1e-12)
+    assert footprint.assumed.startswith("is a mesh, planned as the convex hull of its footprint with 32 of its 90 corners: ")
+    assert (footprint.x, footprint.y, footprint.top) == pytest.approx((0.3, 0.2, 0.82), abs=1e-4)
+
+
+def test_a_mesh_that_covers_nothing_or_is_nowhere_is_refused() -> None:
+    for flat in ([], [(0.0, 0.0, 0.0), (0.1, 0.1, 0.0), (0.1, 0.1, 0.3)]):
+        with pytest.raises(Failure, match="it has no size"):
+            mesh(placed(Quaternion()), flat, "it")
+    with pytest.raises(Failure, match="a vertex at no place"):
+        mesh(placed(Quaternion()), [(0.0, 0.0, math.nan)], "it")
 
 
 @pytest.mark.parametrize("orientation", [turned("z", 0.7), turned("x", math.pi)])

@@ -16,7 +16,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Pose
 from std_msgs.msg import Header
-from table import DROPPING, SETTINGS, detections, planning_scene, table, tray, vase
+from table import DROPPING, SETTINGS, detections, no_warning, planning_scene, table, tray, vase
 
 from singulate_ros import service
 from singulate_ros.failure import Failure
@@ -24,12 +24,13 @@ from singulate_ros.mapping import to_scene
 from singulate_ros.planning import plan
 from singulate_ros.settings import Settings
 
-SCENE = to_scene(detections(), planning_scene(table(), vase()), SETTINGS)
+SCENE = to_scene(detections(), planning_scene(table(), vase()), SETTINGS, no_warning)
 GRASPABLE: dict[str, Any] = {
     "verdict": "graspable",
     "target": "cup",
     "relocations": [],
-    "target_grasp": {"yaw": 0.25},
+    "target_grasp": {"x": 0.4, "y": 0.25, "yaw": 0.25},
+    "warnings": [],
 }
 Reply = tuple[int, dict[str, str], str]
 GOOD: Reply = (200, {}, json.dumps(GRASPABLE))
@@ -181,33 +182,43 @@ def test_messages_become_poses_by_way_of_the_service(monkeypatch: pytest.MonkeyP
     with server(GOOD) as stage:
         monkeypatch.setenv("SINGULATE_URL", stage.url)
         monkeypatch.setenv("SINGULATE_KEY", "sgl_key")
-        poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time, Pose)
+        poses, words = plan(detections(), planning_scene(table(), vase()), SETTINGS, Time, Pose, no_warning)
     assert (stage.bodies, stage.keys) == ([SCENE], ["Bearer sgl_key"])
     assert [(pose.position.x, pose.position.y, pose.position.z) for pose in poses] == [(0.4, 0.25, 0.92)]
     assert words == "grasp cup"
 
 
+def test_the_warnings_of_an_answer_are_passed_on_also_where_there_is_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    assumed = {"code": "default_grasps", "pointer": "/objects", "detail": "grasped as their shapes suggest: 'box'"}
+    locked = {"verdict": "deadlock", "deadlock": {"core": ["cup", "box"]}, "warnings": [assumed]}
+    told: list[str] = []
+    with server((200, {}, json.dumps(locked))) as stage, pytest.raises(Failure, match="cup, box hold each other"):
+        monkeypatch.setenv("SINGULATE_URL", stage.url)
+        plan(detections(), planning_scene(table()), SETTINGS, Time, Pose, told.append)
+    assert told == ["default_grasps /objects: grasped as their shapes suggest: 'box'"]
+
+
 def test_nobody_is_asked_where_all_that_was_wanted_is_away() -> None:
     away = replace(DROPPING, target="", all_of=["plate-7"])
-    assert plan(detections(), planning_scene(table(), tray()), away, Time, Pose) == ([], "all taken away")
+    assert plan(detections(), planning_scene(table(), tray()), away, Time, Pose, no_warning) == ([], "all taken away")
 
 
 def test_a_tool_of_no_known_height_is_not_sent_anywhere() -> None:
     unset = replace(SETTINGS, tool_z=Settings().tool_z)
     with pytest.raises(Failure, match="tool_z is not set"):
-        plan(detections(), planning_scene(table()), unset, Time, Pose)
+        plan(detections(), planning_scene(table()), unset, Time, Pose, no_warning)
 
 
 def test_old_detections_are_not_planned_with() -> None:
     with pytest.raises(Failure, match=" 1.500 s old"):
-        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=1, nanosec=500_000_000), Pose)
+        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=1, nanosec=500_000_000), Pose, no_warning)
 
 
 def test_detections_of_the_future_are_not_planned_with() -> None:
     ahead = detections()
     ahead.header = Header(frame_id="world", stamp=Time(sec=1, nanosec=500_000_000))
     with pytest.raises(Failure, match="-1.500 s old"):
-        plan(ahead, planning_scene(table()), SETTINGS, Time, Pose)
+        plan(ahead, planning_scene(table()), SETTINGS, Time, Pose, no_warning)
 
 
 def test_detections_that_grow_old_while_the_service_is_asked_move_nothing(
@@ -215,5 +226,5 @@ def test_detections_that_grow_old_while_the_service_is_asked_move_nothing(
 ) -> None:
     with server(BUSY, GOOD) as stage, pytest.raises(Failure, match=" 7.000 s old"):
         monkeypatch.setenv("SINGULATE_URL", stage.url)
-        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=int(sum(waits))), Pose)
+        plan(detections(), planning_scene(table()), SETTINGS, lambda: Time(sec=int(sum(waits))), Pose, no_warning)
     assert (stage.replies, waits) == ([], [7.0])

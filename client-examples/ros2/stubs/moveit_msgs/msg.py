@@ -13,6 +13,7 @@ class CollisionObject:
     primitives: list[SolidPrimitive] = field(default_factory=list)
     primitive_poses: list[Pose] = field(default_factory=list)
     meshes: list[Mesh] = field(default_factory=list)
+    mesh_poses: list[Pose] = field(default_factory=list)
     planes: list[Plane] = field(default_factory=list)
 
 

@@ -1,6 +1,8 @@
 from dataclasses import dataclass
 from typing import Sequence
 
+from geometry_msgs.msg import Point
+
 
 @dataclass
 class SolidPrimitive:
@@ -15,7 +17,7 @@ class SolidPrimitive:
 
 @dataclass
 class Mesh:
-    pass
+    vertices: Sequence[Point] = ()
 
 
 @dataclass
