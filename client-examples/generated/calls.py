@@ -35,9 +35,11 @@ from singulate_client.models import (
     KnowledgeBody,
     PickDropBody,
     PickDropWord,
+    PickPlaceBody,
     PlanBody,
     ProbeBody,
     Problem,
+    RectangleShape,
     SceneBody,
     SurveyBody,
     VerdictWord,
@@ -113,6 +115,26 @@ def clear(client: AuthenticatedClient, scene: dict[str, Any]) -> None:
     assert parsed(verify.sync_detailed(client=client, body=stated), VerificationBody).valid
 
 
+def turn(client: AuthenticatedClient, scene: dict[str, Any]) -> None:
+    """Shapes, heights and a palm, and where the gripper and a box stand at each end of a step."""
+    body = SceneBody.from_dict(scene)
+    assert any(isinstance(item.shape, RectangleShape) for item in body.objects)
+    answer = parsed(plan.sync_detailed(client=client, body=body), AnswerBody)
+    assert "default_grasps" in {warning.code for warning in answer.warnings}
+    assert answer.target_grasp is not None
+    (step,) = answer.relocations
+    assert isinstance(step, PickPlaceBody) and isinstance(step.turn, float)
+    assert isinstance(step.from_.yaw, float) and isinstance(step.to.yaw, float)
+    box = next(item for item in body.objects if item.id == step.object_)
+    assert (step.grasp.x, step.grasp.y) == (box.x, box.y), "a box is held over its middle"
+    box.x, box.y, box.yaw = step.to.x, step.to.y, step.to.yaw
+    left = PlanBody.from_dict({**answer.to_dict(), "relocations": []})
+    rest = VerifyBody(scene=body, plan=left, partial=True)
+    assert parsed(verify.sync_detailed(client=client, body=rest), VerificationBody).replan is False
+    known = parsed(knowledge.sync_detailed(client=client, body=body), KnowledgeBody).objects
+    assert any(item.grasps for item in known)
+
+
 def hand_in(client: AuthenticatedClient, scene: dict[str, Any]) -> JobBody:
     body = JobSceneBody.from_dict(scene)
     key = str(uuid.uuid4())
@@ -182,10 +204,11 @@ def main(document_path: str, scenes: str) -> None:
     )
     with client:
         probe(client, document)
-        names = ("one-move", "invalid", "clear-table")
-        scene, faulty, full = (json.loads(Path(scenes, f"{name}.json").read_text()) for name in names)
+        names = ("one-move", "invalid", "clear-table", "tote")
+        scene, faulty, full, boxes = (json.loads(Path(scenes, f"{name}.json").read_text()) for name in names)
         del faulty["colour"]
         clear(client, full)
+        turn(client, boxes)
         refuse_unknown(scene, ask(client, scene, faulty), hand_in(client, scene))
     missed = sorted(known.keys() - called)
     assert not missed, f"operations that are never called: {missed}"

@@ -84,6 +84,26 @@ async function clear(scene: unknown): Promise<void> {
   assert(parsed(await api.verify({ body: { scene: body, plan: answer } })).valid);
 }
 
+/** Shapes, heights and a palm, and where the gripper and a box stand at each end of a step. */
+async function turn(scene: unknown): Promise<void> {
+  const body = zSceneBody.parse(scene);
+  assert(body.objects.some((object) => object.shape?.kind === "rectangle"));
+  const answer = parsed(await api.plan({ body }));
+  assert(answer.warnings.some((warning) => warning.code === "default_grasps"));
+  const [step, ...others] = answer.relocations;
+  assert(step?.action === "pick_place" && others.length === 0 && step.turn !== undefined && answer.target_grasp);
+  const { to, grasp } = step;
+  const objects = body.objects.map((object) => (object.id === step.object ? { ...object, ...to } : object));
+  const box = body.objects.find((object) => object.id === step.object);
+  assert.deepEqual([grasp.x, grasp.y], [box?.x, box?.y], "a box is held over its middle");
+  assert(to.yaw !== undefined && step.from.yaw !== undefined);
+  const plan: PlanBody = { ...answer, relocations: [] };
+  const moved = { ...body, objects };
+  assert.equal(parsed(await api.verify({ body: { scene: moved, plan, partial: true } })).replan, false);
+  const known = parsed(await api.knowledge({ body })).objects;
+  assert(known.some((object) => (object.grasps ?? []).length > 0));
+}
+
 async function handIn(scene: unknown): Promise<JobBody> {
   const body = zJobSceneBody.parse(scene);
   const headers = { "Idempotency-Key": randomUUID() };
@@ -148,6 +168,7 @@ async function main(documentPath: string, scenes: string): Promise<void> {
   const { colour: _, ...faulty } = read(`${scenes}/invalid.json`) as { colour: unknown };
   await probe(document);
   await clear(read(`${scenes}/clear-table.json`));
+  await turn(read(`${scenes}/tote.json`));
   const answer = await ask(scene, faulty);
   await refuseUnknown(scene, answer, await handIn(scene));
   assert.deepEqual([...missed.keys()], [], "operations that are never called");
