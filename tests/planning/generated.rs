@@ -12,7 +12,7 @@ use singulate_planner::search::SILENT;
 use singulate_planner::statement::Verdict;
 
 /// How many scenes; the continuous integration asks for more.
-fn count(variable: &str, few: u64) -> u64 {
+pub(crate) fn count(variable: &str, few: u64) -> u64 {
     std::env::var(variable).ok().map_or(few, |count| count.parse().expect("a number of scenes"))
 }
 

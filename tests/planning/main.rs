@@ -6,6 +6,7 @@ mod bases;
 mod check;
 mod generated;
 mod goals;
+mod moved;
 mod noise;
 mod paper;
 mod quiet;
