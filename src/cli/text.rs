@@ -1,9 +1,11 @@
 //! Answers for humans: the steps and the reasons.
 
+mod steps;
 mod why;
 
 use core::time::Duration;
 
+use self::steps::{last_grasp, steps};
 use self::why::{no_proof, so_far, why_least, why_left, why_never};
 use super::table::{Column, table};
 use crate::render::{fills, goal, headline};
@@ -11,7 +13,7 @@ use crate::wire::{FaultBody, PlanRequest, VerificationBody, warnings};
 use singulate_planner::paper::Judged;
 use singulate_planner::plan::{Answer, Statistics, SurveyEntry, SurveyVerdict};
 use singulate_planner::scene::Scene;
-use singulate_planner::statement::{PickDrop, PickPlace, StatedGrasp, StatedPose, Statement, Step, Verdict};
+use singulate_planner::statement::{Statement, Verdict};
 
 /// The most ids in one sentence.
 const MANY: usize = 40;
@@ -81,63 +83,6 @@ fn drop_offs(scene: &Scene, statement: &Statement) -> String {
         (_, more) => format!(" and {more} more"),
     };
     format!("drop-offs: {}{more}\n", told.join(", "))
-}
-
-fn last_grasp(verb: &str, scene: &Scene, statement: &Statement) -> String {
-    let chosen = scene.target().map(|target| scene.object(target).id()).or(statement.target.as_deref());
-    let grasp = statement.target_grasp.zip(chosen);
-    grasp.map(|(grasp, target)| format!("{verb} {} at yaw {}.\n", plain(target), yaw(grasp))).unwrap_or_default()
-}
-
-/// The steps as a table, without columns that none of them fills.
-fn steps(statement: &Statement) -> String {
-    let dropped = statement.steps().iter().filter(|step| step.rests_at().is_none()).count();
-    let (all, none) = (dropped == statement.steps().len(), dropped == 0);
-    let mut columns = vec![Column::right("#"), Column::left("object"), Column::right("from (m)"), Column::left("")];
-    columns.extend(match (all, none) {
-        (_, true) => vec![Column::right("to (m)")],
-        (true, _) => vec![Column::left("to")],
-        (false, false) => vec![Column::right("to (m)"), Column::left("drop-off")],
-    });
-    columns.push(Column::right("grasp yaw"));
-    if !all {
-        columns.extend([Column::right("release yaw"), Column::right("gap")]);
-    }
-    let rows = statement.steps().iter().enumerate().map(|(at, step)| {
-        let (from, grasp) = match step {
-            Step::PickPlace(step) => (step.from, step.grasp),
-            Step::PickDrop(step) => (step.from, step.grasp),
-        };
-        let from = from.map(point).unwrap_or_default();
-        let mut row = vec![(at + 1).to_string(), plain(step.object()), from, "→".to_owned()];
-        match step {
-            Step::PickPlace(PickPlace { to, release, gap, .. }) => {
-                let gap = gap.map(|gap| format!("{:.1} mm", gap * 1e3)).unwrap_or_default();
-                row.push(point(*to));
-                row.extend((!none).then(String::new));
-                row.extend([yaw(grasp), yaw(*release), gap]);
-            }
-            Step::PickDrop(PickDrop { drop_off, .. }) => {
-                row.extend((!all).then(String::new));
-                row.extend([plain(drop_off), yaw(grasp)]);
-                row.resize(columns.len(), String::new());
-            }
-        }
-        row
-    });
-    table(&columns, rows)
-}
-
-/// Where an object stands, and how it is turned if that matters.
-fn point(StatedPose { at, yaw }: StatedPose) -> String {
-    let turned = yaw.map(|yaw| format!(", {:.1}°", yaw.to_degrees())).unwrap_or_default();
-    format!("{:.3}, {:.3}{turned}", at.x, at.y)
-}
-
-/// The yaw, and how far it may be off to either side.
-fn yaw(StatedGrasp { yaw, slack, .. }: StatedGrasp) -> String {
-    let slack = slack.map(|slack| format!(" ±{:.1}°", slack.to_degrees())).unwrap_or_default();
-    format!("{:.1}°{slack}", yaw.to_degrees())
 }
 
 fn ids(objects: &[impl AsRef<str>]) -> String {

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use nalgebra::Point2;
-use svg::node::element::{Group, Polygon};
+use svg::node::element::{Circle, Group, Polygon};
 
 use super::paint::{Paint, points, px, ring};
 use super::view::View;
@@ -51,11 +51,22 @@ pub(super) fn fingers(
     }
     match gripper.palm() {
         Some(palm) => {
-            let palm = ring(view.point(axis), view.length(palm.radius), paint.line).set("class", "palm");
-            group.add(palm.set("stroke-dasharray", "2 3").set("stroke-width", px(0.8)))
+            group.add(self::palm(view.point(axis), view.length(palm.radius), paint.line).set("class", "palm"))
         }
         None => group,
     }
+}
+
+/// The palm: a dashed circle, px.
+pub(super) fn palm(at: Point2<f64>, radius: f64, line: &str) -> Circle {
+    ring(at, radius, line).set("stroke-dasharray", "2 3").set("stroke-width", px(0.8))
+}
+
+/// How far the open fingers and the palm reach from the gripper's axis, m.
+pub(super) fn reach(object: &Object, place: &Footprint, grasp: StatedGrasp, gripper: &Gripper) -> f64 {
+    let fingers = listed(object, place, grasp, gripper);
+    let fingers = fingers.map_or_else(|| gripper.corner_distance(place), ListedGrasp::corner_distance);
+    gripper.palm().map_or(fingers, |palm| fingers.max(palm.radius))
 }
 
 /// The listed grasp that is stated.

@@ -3,6 +3,7 @@
 use nalgebra::Point2;
 use svg::node::element::{Group, Line, Rectangle};
 
+use super::hand;
 use super::label;
 use super::moves::{self, badge};
 use super::paint::{self, Paint, Sign, TRAY, px, ring};
@@ -53,6 +54,9 @@ fn signs(scene: &Scene, stated: &Statement, roles: &Roles<'_>) -> Vec<(Sign, &'s
     if roles.any_immovable(Stays::TooWide) {
         signs.push((Sign::DoubleRing(paint::TOO_WIDE), "too wide for the hand, as if fixed"));
     }
+    if roles.any_immovable(Stays::NoGrasp) {
+        signs.push((Sign::DoubleRing(paint::NO_GRASP), "without a grasp, as if fixed"));
+    }
     if roles.any_immovable(Stays::NotAccepted) {
         signs.push((Sign::DoubleRing(paint::NOT_ACCEPTED), "no drop-off accepts it, as if fixed"));
     }
@@ -65,6 +69,9 @@ fn signs(scene: &Scene, stated: &Statement, roles: &Roles<'_>) -> Vec<(Sign, &'s
     signs.extend(moves::signs(stated));
     if stated.target_grasp.is_some() {
         signs.push((Sign::Finger(paint::TARGET_GRASP), "fingers at the target"));
+    }
+    if scene.gripper().palm().is_some() && (stated.target_grasp.is_some() || !stated.steps().is_empty()) {
+        signs.push((Sign::Palm, "palm"));
     }
     signs.extend(staying(stated, roles));
     if stated.needed.is_some() {
@@ -120,6 +127,7 @@ fn drawn(sign: Sign, at: Point2<f64>) -> Group {
             let paint = Paint { fill: paint::PAPER, line: paint::FAINT_INK };
             group.add(disc(paint).set("stroke-dasharray", "4 2.5"))
         }
+        Sign::Palm => group.add(hand::palm(at, SIGN, paint::FAINT_INK)),
         Sign::Number(paint) => group.add(badge(1, at, paint, SIGN)),
         Sign::Finger(paint) => {
             group.add(block(3.5).set("fill", paint.fill).set("fill-opacity", "0.55").set("stroke", paint.line))

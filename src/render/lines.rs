@@ -8,7 +8,7 @@ use super::headline::headline;
 use super::label;
 use super::paint;
 use super::phrases::listed;
-use super::scene_line::{drop_off_line, scene_line};
+use super::scene_line::{drop_off_line, hand_line, scene_line};
 use super::stays::left;
 use super::view::{PADDING, View};
 use singulate_planner::paper::{Judged, Warning};
@@ -72,7 +72,7 @@ fn warned(judged: &Judged) -> String {
 /// The whole text, for screen readers.
 pub(super) fn description(scene: &Scene, judged: &Judged) -> String {
     let stated = judged.statement();
-    let parts = [detail(stated), staying(scene, stated), scene_line(scene), drop_off_line(scene)];
+    let parts = [detail(stated), staying(scene, stated), scene_line(scene), hand_line(scene), drop_off_line(scene)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(". ")
 }
 
@@ -81,16 +81,17 @@ pub(super) fn description(scene: &Scene, judged: &Judged) -> String {
 pub(super) struct Lines {
     /// Each with its size, px.
     lines: Vec<(String, f64)>,
-    /// How much higher they are than those of a scene without drop-offs and clearing, px.
+    /// How much higher they are than those of a scene without drop-offs, clearing and palm, px.
     pub(super) added: f64,
 }
 
 impl Lines {
     pub(super) fn new(scene: &Scene, judged: &Judged) -> Self {
         let stated = judged.statement();
-        let (left, drop_offs) = (staying(scene, stated), drop_off_line(scene));
-        let added = [&left, &drop_offs].iter().filter(|line| !line.is_empty()).count();
-        let small = [detail(stated), left, warned(judged), scene_line(scene), drop_offs].map(|line| (line, SMALL));
+        let (left, hand, drop_offs) = (staying(scene, stated), hand_line(scene), drop_off_line(scene));
+        let added = [&left, &hand, &drop_offs].iter().filter(|line| !line.is_empty()).count();
+        let small =
+            [detail(stated), left, warned(judged), scene_line(scene), hand, drop_offs].map(|line| (line, SMALL));
         let lines = core::iter::once((headline(scene, judged), 20.0)).chain(small);
         Self { lines: lines.filter(|(text, _)| !text.is_empty()).collect(), added: added as f64 * (SMALL + LEADING) }
     }

@@ -9,6 +9,7 @@ mod label;
 mod legend;
 mod lines;
 mod moves;
+mod names;
 mod objects;
 mod outline;
 mod paint;
@@ -21,6 +22,7 @@ mod view;
 
 pub use fill::{Fill, fills};
 pub use headline::headline;
+pub use phrases::turn;
 pub use scene_line::goal;
 pub use stays::{immovable, left};
 
@@ -90,6 +92,7 @@ fn definitions(view: &View, roles: &Roles<'_>) -> Definitions {
         .add(hatch("fixed", paint::FIXED_HATCH, 5.0));
     let as_if_fixed = [
         (Stays::TooWide, "too-wide", paint::TOO_WIDE_HATCH),
+        (Stays::NoGrasp, "no-grasp", paint::NO_GRASP_HATCH),
         (Stays::NotAccepted, "not-accepted", paint::NOT_ACCEPTED_HATCH),
     ];
     let occurring = as_if_fixed.into_iter().filter(|(reason, ..)| roles.any_immovable(*reason));

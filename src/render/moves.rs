@@ -8,8 +8,9 @@ use svg::node::element::{Group, Line, Polygon, Title};
 use super::fill::{drop_off, drops};
 use super::hand::fingers;
 use super::label;
-use super::objects::{named, outline};
-use super::outline::{Outline, body, filled};
+use super::names::named;
+use super::objects::outline;
+use super::outline::{Outline, body, filled, middle, reach, upper_left};
 use super::paint::{self, Paint, Sign, px, ring};
 use super::roles::{Mark, Roles};
 use super::view::View;
@@ -99,8 +100,7 @@ pub(super) fn needed(ids: &[String], roles: &Roles<'_>, view: &View) -> Group {
     let objects = ids.iter().enumerate().filter_map(|(at, id)| Some((at + 1, roles.object(id)?)));
     objects.fold(Group::new(), |group, (number, object)| {
         let footprint = object.footprint();
-        let radius = body(footprint, view);
-        let corner = view.point(footprint.at()) + nalgebra::Vector2::new(-0.7 * radius, -0.7 * radius);
+        let corner = upper_left(footprint, 0.7, view);
         group.add(badge(number, corner, paint::NEEDED, badge_radius(footprint, view)))
     })
 }
@@ -110,7 +110,7 @@ fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
     let old = step.object.footprint().moved_to(step.from);
     let title = match drop_off(step.step) {
         Some(drop_off) => format!("{}: {} to {drop_off}", step.number, step.object.id()),
-        None => format!("{}: {}", step.number, step.object.id()),
+        None => format!("{}: {}{}", step.number, step.object.id(), turned(step.step)),
     };
     let paint = if step.wanted { paint::GHOST_OF_WANTED } else { paint::GHOST };
     let stroke = outline(&old, view);
@@ -143,6 +143,12 @@ fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
     }
 }
 
+/// How far the step turns its object, in words; empty where it does not.
+fn turned(step: &Step) -> String {
+    let turn = step.pick_place().and_then(|step| step.turn).and_then(super::turn);
+    turn.map(|turn| format!(", turned by {turn}")).unwrap_or_default()
+}
+
 /// The object at a new place, dashed if it leaves it again.
 fn set_down(new: &Footprint, again: bool, view: &View) -> Outline {
     let place = filled(new, view, paint::MOVED).set("stroke-width", px(1.5 * outline(new, view)));
@@ -151,11 +157,11 @@ fn set_down(new: &Footprint, again: bool, view: &View) -> Outline {
 
 /// The arrow to the new place, and the step's number at both ends; `None` for a step off the table.
 fn route(Move { number, object, from, step, .. }: &Move<'_>, view: &View) -> Option<Group> {
-    let (number, footprint, to) = (*number, object.footprint(), step.pick_place()?.to);
-    let radius = body(footprint, view);
-    let (from, to) = (view.point(from.at), view.point(to.at));
+    let (number, footprint) = (*number, object.footprint());
+    let (old, new) = (footprint.moved_to(*from), footprint.moved_to(step.pick_place()?.to.into()));
+    let (from, to) = (view.point(middle(&old)), view.point(middle(&new)));
     let size = badge_radius(footprint, view);
-    let badge = badge(number, to + nalgebra::Vector2::new(-0.75 * radius, -0.75 * radius), paint::MOVED, size);
+    let badge = badge(number, upper_left(&new, 0.75, view), paint::MOVED, size);
     let group = Group::new().set("class", "route");
     let length = distance(from, to);
     if length < 1.0 {
@@ -163,8 +169,9 @@ fn route(Move { number, object, from, step, .. }: &Move<'_>, view: &View) -> Opt
     }
     let along = (to - from) / length;
     // If the two places overlap, the arrow would have no length, so it runs from centre to centre.
-    let inset = if length > 2.6 * radius { radius } else { 0.0 };
-    let (start, tip) = (from + along * inset, to - along * inset);
+    let insets = (reach(&old, along, view), reach(&new, -along, view));
+    let insets = if length > 2.6 * ((insets.0 + insets.1) / 2.0) { insets } else { (0.0, 0.0) };
+    let (start, tip) = (from + along * insets.0, to - along * insets.1);
     // The number at both ends: where many arrows cross, none can be followed.
     Some(group.add(arrow(start, tip, size)).add(self::badge(number, start, paint::GRASP, 0.8 * size)).add(badge))
 }
@@ -202,5 +209,5 @@ pub(super) fn badge(number: usize, at: Point2<f64>, paint: Paint, radius: f64) -
 
 /// Large enough to be read on small objects too.
 pub(super) fn badge_radius(footprint: &Footprint, view: &View) -> f64 {
-    (0.3 * view.length(footprint.circumradius())).clamp(8.0, 14.0)
+    (0.3 * body(footprint, view)).clamp(8.0, 14.0)
 }

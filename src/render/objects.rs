@@ -2,8 +2,9 @@
 
 use svg::node::element::{Group, Rectangle as Rect, Title};
 
-use super::label::{self, LARGEST_SIZE};
-use super::outline::{Outline, body, contour, filled};
+use super::label;
+use super::names::named;
+use super::outline::{Outline, contour, filled};
 use super::paint::{self, Paint, px};
 use super::roles::{Mark, Role, Roles};
 use super::stays::Stays;
@@ -70,6 +71,7 @@ fn look(role: Role, mark: Mark) -> (&'static str, Paint) {
         (_, Mark::Candidate) => ("object", paint::CANDIDATE),
         (Role::Stays(Stays::Fixed), _) => ("object", paint::FIXED),
         (Role::Stays(Stays::TooWide), _) => ("object", paint::TOO_WIDE),
+        (Role::Stays(Stays::NoGrasp), _) => ("object", paint::NO_GRASP),
         (Role::Stays(Stays::NotAccepted), _) => ("object", paint::NOT_ACCEPTED),
         (Role::Stays(Stays::Locked), _) => ("blocked", paint::BLOCKED),
         (Role::Stays(Stays::NoRoom), _) => ("object", paint::NO_ROOM),
@@ -78,10 +80,11 @@ fn look(role: Role, mark: Mark) -> (&'static str, Paint) {
     }
 }
 
-/// Within a lock the second ring still shows that an object is too wide or accepted by no drop-off.
+/// Within a lock the second ring still shows that an object is too wide, without a grasp, or accepted by no drop-off.
 fn ring_colour(why: Stays, paint: Paint) -> &'static str {
     match why {
         Stays::TooWide if paint != paint::TOO_WIDE => paint::TOO_WIDE_HATCH,
+        Stays::NoGrasp if paint != paint::NO_GRASP => paint::NO_GRASP_HATCH,
         Stays::NotAccepted if paint != paint::NOT_ACCEPTED => paint::NOT_ACCEPTED_HATCH,
         _ => paint.line,
     }
@@ -102,25 +105,4 @@ fn inner_ring(footprint: &Footprint, share: f64, view: &View, line: &str) -> Out
 /// A stroke thin enough for the smallest of ten thousand discs, px.
 pub(super) fn outline(footprint: &Footprint, view: &View) -> f64 {
     (view.length(footprint.circumradius()) * 0.06).min(1.5)
-}
-
-/// The size of letters across an object that is thinner than they are, px.
-const NAMED_ACROSS: f64 = 9.0;
-
-/// Write the id into the object if it is readable.
-pub(super) fn named(group: Group, id: &str, footprint: &Footprint, paint: Paint, view: &View) -> Group {
-    let radius = view.length(footprint.circumradius());
-    let disc = footprint.core().is_none();
-    // Across a thin object the letters stand out on both sides.
-    let size = if disc { 0.8 * radius } else { (0.8 * body(footprint, view)).max(NAMED_ACROSS.min(0.8 * radius)) };
-    let Some((text, size)) = label::fit(id, size.min(LARGEST_SIZE), 1.6 * radius) else { return group };
-    let ink = if paint == paint::CORE { paint::PAPER } else { paint::INK };
-    let text = label::centred(&text, size, view.point(footprint.at())).set("fill", ink);
-    // A halo separates the letters from the hatching.
-    let halo = !disc || [paint::FIXED, paint::TOO_WIDE, paint::NOT_ACCEPTED].contains(&paint);
-    group.add(if halo {
-        text.set("stroke", paint::PAPER).set("stroke-width", px(size / 4.0)).set("paint-order", "stroke")
-    } else {
-        text
-    })
 }

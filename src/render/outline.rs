@@ -77,8 +77,40 @@ fn position(at: Point2<f64>) -> String {
     format!("{} {}", px(at.x), px(at.y))
 }
 
-/// How far the footprint reaches from its origin at the least, px: where signs beside it begin.
+/// Where the footprint's name is written: its centroid, which may be far from its frame's origin.
+pub(super) fn middle(footprint: &Footprint) -> Point2<f64> {
+    footprint.core().map_or(footprint.at(), |core| footprint.at() + core.centroid())
+}
+
+/// How far the footprint reaches from its middle at the least, px.
 pub(super) fn body(footprint: &Footprint, view: &View) -> f64 {
-    let shape = footprint.shape();
-    view.length(if footprint.core().is_none() { shape.circumradius() } else { shape.inradius() })
+    let Some(core) = footprint.core() else { return view.length(footprint.circumradius()) };
+    let middle = core.centroid();
+    let sides = core.axes().iter().map(|axis| axis.offset - axis.normal.dot(&middle));
+    view.length(sides.fold(f64::INFINITY, f64::min) + footprint.radius())
+}
+
+/// How far the footprint reaches from its middle in a direction of the drawing, px. Arrows begin and end there.
+pub(super) fn reach(footprint: &Footprint, towards: Vector2<f64>, view: &View) -> f64 {
+    if footprint.core().is_none() {
+        return body(footprint, view);
+    }
+    let (middle, along) = (middle(footprint), Vector2::new(towards.x, -towards.y));
+    let (mut inside, mut outside) = (0.0, 2.0 * footprint.circumradius());
+    // Far finer than a pixel.
+    for _ in 0..24 {
+        let half = (inside + outside) / 2.0;
+        if footprint.comes_within(middle + along * half, 0.0) { inside = half } else { outside = half }
+    }
+    view.length(outside)
+}
+
+/// Where a number stands on the upper left of the footprint, px: of a disc at `share` of its radius to the left and up, else near
+/// its uppermost left corner, so that the name can be read.
+pub(super) fn upper_left(footprint: &Footprint, share: f64, view: &View) -> Point2<f64> {
+    let at = view.point(middle(footprint));
+    let Some(core) = footprint.core() else { return at - Vector2::repeat(share * body(footprint, view)) };
+    let corners = core.vertices().iter().map(|v| view.point(footprint.at() + v));
+    let corner = corners.min_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y))).unwrap_or(at);
+    at + (corner - at) * 0.85
 }

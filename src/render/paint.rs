@@ -11,6 +11,7 @@ pub(super) const TABLE_EDGE: &str = "#8d6e4a";
 pub(super) const KEEP_OUT: &str = "#d7b9a0";
 pub(super) const FIXED_HATCH: &str = "#b4b9be";
 pub(super) const TOO_WIDE_HATCH: &str = "#e6b98a";
+pub(super) const NO_GRASP_HATCH: &str = "#c3cf8f";
 pub(super) const NOT_ACCEPTED_HATCH: &str = "#c3b1e1";
 
 /// Fill and outline.
@@ -24,6 +25,8 @@ pub(super) const OBSTACLE: Paint = Paint { fill: "#e3e7ea", line: "#6b7177" };
 pub(super) const FIXED: Paint = Paint { fill: "url(#fixed)", line: "#3c4043" };
 /// As if fixed, since no hand spans it.
 pub(super) const TOO_WIDE: Paint = Paint { fill: "url(#too-wide)", line: "#8a4b08" };
+/// As if fixed, since it has no grasp.
+pub(super) const NO_GRASP: Paint = Paint { fill: "url(#no-grasp)", line: "#55631a" };
 /// As if fixed, since no drop-off accepts it.
 pub(super) const NOT_ACCEPTED: Paint = Paint { fill: "url(#not-accepted)", line: "#5b3f94" };
 pub(super) const TARGET: Paint = Paint { fill: "#ffd54f", line: "#8a5a00" };
@@ -58,6 +61,7 @@ pub(super) enum Sign {
     Number(Paint),
     Finger(Paint),
     Hatch,
+    Palm,
     Tray,
 }
 

@@ -1,4 +1,4 @@
-//! Counts with their nouns, and lists that are cut short.
+//! Counts with their nouns, turns, and lists that are cut short.
 
 /// The count and its noun, with a plural s unless the count is 1: `1 object`, `3 objects`.
 pub(super) fn counted(count: u64, noun: &str) -> String {
@@ -12,4 +12,10 @@ pub(super) fn listed(first: &[String], count: usize) -> String {
         more => format!(" and {more} more"),
     };
     first.join(", ") + &more
+}
+
+/// How far an object turns, counter-clockwise: `+90.0°`. `None` where it does not.
+pub fn turn(turn: f64) -> Option<String> {
+    let text = format!("{:+.1}°", turn.to_degrees());
+    (!["+0.0°", "-0.0°"].contains(&&text[..])).then_some(text)
 }

@@ -1,4 +1,5 @@
-//! Two lines about the scene: one names the goal, counts the objects and gives the hand's lengths; one lists the drop-offs.
+//! Lines about the scene: one names the goal, counts the objects and gives the hand's lengths; one tells of its palm and heights,
+//! one lists the drop-offs.
 
 use super::phrases::{counted, listed};
 use super::stays::{Stays, immovable};
@@ -39,7 +40,7 @@ pub(super) fn scene_line(scene: &Scene) -> String {
 
 /// How many can't be moved, and why.
 fn standing(scene: &Scene) -> String {
-    let mut counts = [(Stays::Fixed, 0), (Stays::TooWide, 0), (Stays::NotAccepted, 0)];
+    let mut counts = [(Stays::Fixed, 0), (Stays::TooWide, 0), (Stays::NoGrasp, 0), (Stays::NotAccepted, 0)];
     for reason in scene.indices().filter_map(|object| immovable(scene, object)) {
         counts.iter_mut().filter(|(counted, _)| *counted == reason).for_each(|(_, count)| *count += 1);
     }
@@ -52,6 +53,23 @@ fn opening(scene: &Scene) -> String {
     let Some(opening) = scene.gripper().max_opening() else { return String::new() };
     let full = if scene.gripper().opening() == Opening::Full { ", always opened fully" } else { "" };
     format!(", greatest opening {} mm{full}", millimetres(opening))
+}
+
+/// The heights of the hand, and its palm; empty where neither is stated.
+pub(super) fn hand_line(scene: &Scene) -> String {
+    let gripper = scene.gripper();
+    let low = match (gripper.tip_height(), gripper.palm()) {
+        (low, _) if low <= 0.0 => None,
+        // At what is tall the palm keeps them higher.
+        (low, Some(_)) => Some(format!("fingertips at least {} mm above the table", millimetres(low))),
+        (low, None) => Some(format!("fingertips {} mm above the table", millimetres(low))),
+    };
+    let palm = gripper.palm().map(|palm| {
+        let (across, length) = (millimetres(2.0 * palm.radius), millimetres(palm.finger_length));
+        format!("palm {across} mm across, {length} mm above the fingertips")
+    });
+    let parts: Vec<String> = palm.into_iter().chain(low).collect();
+    if parts.is_empty() { String::new() } else { format!("hand: {}", parts.join("; ")) }
 }
 
 /// The drop-offs, and where goes what has to move; empty without drop-offs.

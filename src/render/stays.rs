@@ -13,6 +13,8 @@ pub enum Stays {
     Fixed,
     /// It is wider than the greatest opening of the hand.
     TooWide,
+    /// It has no grasp that the hand can do, whatever its width.
+    NoGrasp,
     /// No drop-off accepts it, and nothing is put aside on the table.
     NotAccepted,
     /// It is in the lock.
@@ -25,14 +27,15 @@ pub enum Stays {
 
 impl Stays {
     /// All of them, in the order in which they are told.
-    const ALL: [Self; 6] =
-        [Self::Fixed, Self::Locked, Self::NoRoom, Self::NotAccepted, Self::TooWide, Self::NotReached];
+    const ALL: [Self; 7] =
+        [Self::Fixed, Self::Locked, Self::NoRoom, Self::NotAccepted, Self::TooWide, Self::NoGrasp, Self::NotReached];
 
     /// The reason as a phrase that goes with one object and with several.
     pub fn words(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
             Self::TooWide => "too wide for the hand",
+            Self::NoGrasp => "without a grasp",
             Self::NotAccepted => "accepted by no drop-off",
             Self::Locked => "locked",
             Self::NoRoom => "no room in a drop-off",
@@ -46,6 +49,7 @@ pub fn immovable(scene: &Scene, index: ObjectIndex) -> Option<Stays> {
     let object = scene.object(index);
     match () {
         () if object.fixed() => Some(Stays::Fixed),
+        () if object.lacks_grasp() => Some(Stays::NoGrasp),
         () if !object.can_be_grasped() => Some(Stays::TooWide),
         () if !scene.movable(index) && !scene.goal().is_candidate(index) => Some(Stays::NotAccepted),
         () => None,

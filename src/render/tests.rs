@@ -2,6 +2,7 @@
 
 mod goals;
 mod rows;
+mod shapes;
 mod trays;
 mod words;
 

@@ -8,7 +8,7 @@ use svg::node::element::{Group, Rectangle, Title};
 use super::fill::{Fill, drop_off, fills};
 use super::label;
 use super::moves::{Move, arrow, badge, badge_radius};
-use super::outline::body;
+use super::outline::{middle, reach};
 use super::paint::{self, TRAY, px};
 use super::view::{PADDING, View};
 use singulate_planner::scene::{Scene, distance};
@@ -168,16 +168,16 @@ fn spread(mut wished: Vec<f64>, (least, greatest): (f64, f64)) -> Vec<f64> {
 
 /// The arrow from the old place to the tray, and the step's number at both ends.
 fn route(step: &Move<'_>, to: Point2<f64>, faint: bool, view: &View) -> Group {
-    let footprint = step.object.footprint();
-    let from = view.point(step.from.at);
+    let footprint = step.object.footprint().moved_to(step.from);
+    let from = view.point(middle(&footprint));
     let badge_at = |at, paint, radius| badge(step.number, at, paint, radius);
     let group = Group::new().set("class", "route");
     let length = distance(from, to);
-    let radius = body(footprint, view).min(length / 2.0);
     let along = (to - from) / length.max(1.0);
+    let radius = reach(&footprint, along, view).min(length / 2.0);
     let (start, tip) = (from + along * radius, to - along * NUMBER);
     let arrow = if distance(start, tip) < 1.0 { Group::new() } else { arrow(start, tip, NUMBER) };
     let group = group.add(if faint { Group::new().set("opacity", "0.35").add(arrow) } else { arrow });
-    let size = 0.8 * badge_radius(footprint, view);
+    let size = 0.8 * badge_radius(&footprint, view);
     group.add(badge_at(start, paint::GRASP, size)).add(badge_at(to, paint::MOVED, NUMBER))
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::hand;
 use super::roles::Roles;
-use singulate_planner::scene::{Grasps, Object, Scene};
-use singulate_planner::statement::Statement;
+use singulate_planner::scene::{Footprint, Object, Scene};
+use singulate_planner::statement::{StatedGrasp, StatedPose, Statement, Step};
 
 /// Padding on all sides, px.
 pub(super) const PADDING: f64 = 24.0;
@@ -87,18 +88,30 @@ fn drawn<'a>(
     roles: &'a Roles<'a>,
 ) -> impl Iterator<Item = [Point2<f64>; 2]> + 'a {
     let gripper = scene.gripper();
-    let reach = move |object: &Object, at: Point2<f64>| {
-        let hand = match (object.grasps(), gripper.palm()) {
-            (Grasps::EveryYaw, None) => gripper.corner_distance(object.footprint()),
-            _ => object.reach(gripper).max(object.footprint().circumradius()),
-        };
-        [at - Vector2::repeat(hand), at + Vector2::repeat(hand)]
+    let hand = move |object: &Object, place: &Footprint, grasp: StatedGrasp| {
+        let (axis, reach) =
+            (grasp.at.unwrap_or(place.at()), Vector2::repeat(hand::reach(object, place, grasp, gripper)));
+        [axis - reach, axis + reach]
     };
     let moved = stated.steps().iter().flat_map(move |step| {
         let object = roles.object(step.object());
-        object.into_iter().flat_map(move |object| step.places().map(move |pose| reach(object, pose.at)))
+        let held = move |object: &'a Object| {
+            held(step).into_iter().flatten().flat_map(move |(pose, grasp)| {
+                let place = object.footprint().moved_to(pose.into());
+                [place.bounding_box(), hand(object, &place, grasp)]
+            })
+        };
+        object.into_iter().flat_map(held)
     });
-    let grasped = stated.target_grasp.and_then(|_| roles.grasped());
-    let target = grasped.map(move |object| reach(object, object.footprint().at()));
+    let target = stated.target_grasp.zip(roles.grasped());
+    let target = target.map(move |(grasp, object)| hand(object, object.footprint(), grasp));
     scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
+}
+
+/// Where a step holds its object on the table, and how.
+fn held(step: &Step) -> [Option<(StatedPose, StatedGrasp)>; 2] {
+    match step {
+        Step::PickPlace(step) => [step.from.map(|from| (from, step.grasp)), Some((step.to, step.release))],
+        Step::PickDrop(step) => [step.from.map(|from| (from, step.grasp)), None],
+    }
 }

@@ -1,6 +1,7 @@
 //! The texts, word for word.
 
 mod goals;
+mod shapes;
 
 use nalgebra::Point2;
 
@@ -9,7 +10,7 @@ use crate::wire::{RequestLimits, read_scene};
 use singulate_planner::check::{Fault, FaultCode, Report};
 use singulate_planner::cost::Cost;
 use singulate_planner::scene::ObjectIndex;
-use singulate_planner::statement::Deadlock;
+use singulate_planner::statement::{Deadlock, PickDrop, PickPlace, StatedGrasp, StatedPose, Step};
 
 fn request() -> PlanRequest {
     let scene = r#"{"scene_id": "cell-4/17", "table": {"x_min": 0, "y_min": 0, "x_max": 2, "y_max": 1},

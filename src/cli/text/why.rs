@@ -67,8 +67,11 @@ pub(super) fn why_never(scene: &Scene, Deadlock { blocked, core }: &Deadlock) ->
     let in_core: HashSet<&str> = core.iter().map(String::as_str).collect();
     let others: Vec<&String> = blocked.iter().filter(|id| !in_core.contains(id.as_str())).collect();
     let others = if others.is_empty() { String::new() } else { format!("\nAlso locked: {}\n", some(&others)) };
+    // A disc is tried at every yaw, anything else in the grasps that it has.
+    let listed = |id: &&String| by_id.get(id.as_str()).is_some_and(|&at| scene.object(at).grasps().listed().is_some());
+    let ways = if core.iter().any(|id| listed(&id)) { "in every grasp" } else { "at every yaw" };
     format!(
-        "These objects lock each other: at every yaw of each that can be moved, another of them is in the way.\n\n\
+        "These objects lock each other: {ways} of each that can be moved, another of them is in the way.\n\n\
          {members}{others}"
     )
 }
