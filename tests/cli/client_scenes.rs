@@ -38,8 +38,10 @@ fn number(value: &Value) -> String {
     format!("{:.3}", value.as_f64().unwrap())
 }
 
+/// Where an object or the gripper stands, as the clients print it: the yaw where there is one.
 fn place(value: &Value) -> String {
-    format!("{} {}", number(&value["x"]), number(&value["y"]))
+    let parts = ["x", "y", "yaw"].iter().filter_map(|&part| value.get(part));
+    parts.map(number).collect::<Vec<_>>().join(" ")
 }
 
 /// The item of this id in a list of the scene.
@@ -51,18 +53,19 @@ fn position(list: &Value, id: &Value) -> usize {
 fn carry_out(scene: &mut Value, step: &Value) -> String {
     let object = step["object"].as_str().unwrap();
     let at = position(&scene["objects"], &step["object"]);
-    let (from, grasp) = (place(&step["from"]), number(&step["grasp"]["yaw"]));
+    let (from, grasp) = (place(&step["from"]), place(&step["grasp"]));
     if step["action"] == "pick_drop" {
         take_away(scene, at, &step["drop_off"]);
         let to = step["drop_off"].as_str().unwrap();
         return format!("take {object} from {from} away to {to}, grasp at {grasp}\n");
     }
     assert_eq!(step["action"], "pick_place");
-    for axis in ["x", "y"] {
-        scene["objects"][at][axis] = step["to"][axis].clone();
+    for (part, value) in step["to"].as_object().unwrap() {
+        scene["objects"][at][part] = value.clone();
     }
-    let (to, release) = (place(&step["to"]), number(&step["release"]["yaw"]));
-    format!("move {object} from {from} to {to}, grasp at {grasp}, release at {release}\n")
+    let (to, release) = (place(&step["to"]), place(&step["release"]));
+    let turned = step.get("turn").map(|turn| format!(", turned by {}", number(turn))).unwrap_or_default();
+    format!("move {object} from {from} to {to}{turned}, grasp at {grasp}, release at {release}\n")
 }
 
 /// The object at this position is at the drop-off, which is left out if it is full.
@@ -110,7 +113,7 @@ fn end(answer: &Value) -> String {
         "relocate" if answer["target"].is_null() => "all taken away\nexit 0\n".to_owned(),
         "graspable" | "relocate" => {
             let target = answer["target"].as_str().unwrap();
-            format!("grasp {target} at {}\nexit 0\n", number(&answer["target_grasp"]["yaw"]))
+            format!("grasp {target} at {}\nexit 0\n", place(&answer["target_grasp"]))
         }
         "partly_cleared" => {
             assert_eq!(answer["proven"], true);
