@@ -56,8 +56,8 @@ pub use request::read_scene;
 pub use scene::{GripperBody, OpeningWord, RectangleBody, SceneBody, TableBody};
 pub use settings::{DestinationWord, GraspModelWord, ObjectiveWord, PlacementWord, SearchWord, SettingsBody};
 pub use shape::{
-    CapsuleShape, CapsuleWord, DiscShape, DiscWord, PolygonShape, PolygonWord, RectangleShape, RectangleWord, ShapeBody,
-    ShapePoint,
+    CapsuleShape, CapsuleWord, DiscShape, DiscWord, PolygonShape, PolygonWord, RectangleShape, RectangleWord,
+    ShapeBody, ShapePoint,
 };
 pub use stated_step::{StatedGraspBody, StatedPickDrop, StatedPickPlace, StatedPoseBody, StatedStep};
 pub use statement::{AnyObject, PlanBody, StatedDeadlock, VerifyBody, VerifyRequest, read_plan, read_verify};

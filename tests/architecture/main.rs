@@ -209,7 +209,11 @@ fn the_checker_shares_only_the_scene_and_the_statement() {
         // `gap` of a step is a field, of the checker a function; of a footprint it is a method.
         assert!(!text.replace("self.places.least_gap(", "").contains(".gap("), "{}", path.display());
         // The core in the object's own frame is data; turned as the object stands it is the scene's arithmetic.
-        assert!(!text.replace(".shape().core(", "").replace("shape.core(", "").contains(".core("), "{}", path.display());
+        assert!(
+            !text.replace(".shape().core(", "").replace("shape.core(", "").contains(".core("),
+            "{}",
+            path.display()
+        );
     }
     // A word that nobody else uses forbids nothing.
     for word in NOT_THE_CHECKERS {
