@@ -108,11 +108,12 @@ impl Footprint {
 
     /// True if another footprint is at least `gap` away from edge to edge, m.
     pub fn keeps_from(&self, other: &Self, gap: f64) -> bool {
+        let (towards, keep) = (other.at() - self.at(), gap + self.radius() + other.radius());
         match (self.core(), other.core()) {
-            (Some(core), Some(others)) => {
-                core.keeps_from(others, other.at() - self.at(), gap + self.radius() + other.radius())
-            }
-            _ => self.gap(other) >= gap,
+            (None, None) => self.gap(other) >= gap,
+            (Some(core), None) => !core.comes_within(towards, keep),
+            (None, Some(core)) => !core.comes_within(-towards, keep),
+            (Some(core), Some(others)) => core.keeps_from(others, towards, keep),
         }
     }
 

@@ -66,9 +66,10 @@ pub(super) fn overlaps(
 
 /// The objects that may overlap with a footprint, itself among them.
 fn touching<'a>(index: &'a FootprintIndex, footprint: &'a Footprint) -> impl Iterator<Item = ObjectIndex> + 'a {
-    let disc = footprint.core().is_none();
     let near = index.within(footprint.at(), footprint.circumradius());
-    near.filter(move |(_, other)| disc || footprint.gap(other) < 0.0).map(|(other, _)| other)
+    // A disc that comes so near to a disc overlaps with it.
+    let discs = move |other: &Footprint| footprint.core().is_none() && other.core().is_none();
+    near.filter(move |(_, other)| discs(other) || !footprint.keeps_from(other, 0.0)).map(|(other, _)| other)
 }
 
 /// Reports the overlap of the object at `at` with an earlier one.
