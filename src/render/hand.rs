@@ -5,13 +5,11 @@ use core::f64::consts::TAU;
 use nalgebra::Point2;
 use svg::node::element::{Circle, Group, Polygon};
 
+use super::held::listed;
 use super::paint::{Paint, points, px, ring};
 use super::view::View;
-use singulate_planner::scene::{Footprint, Grasps, Gripper, ListedGrasp, Object, direction, turned};
+use singulate_planner::scene::{Footprint, Gripper, ListedGrasp, Object};
 use singulate_planner::statement::StatedGrasp;
-
-/// Two places or yaws nearer than this are one, m and rad.
-const SAME: f64 = 1e-6;
 
 /// The k open fingers of a grasp of an object at a place, and all that they cover while they close: rectangles from the object's
 /// edge to the fingers' outer edge, w wide, turned. Finger 0 has a dot; the palm is a dashed circle.
@@ -60,23 +58,4 @@ pub(super) fn fingers(
 /// The palm: a dashed circle, px.
 pub(super) fn palm(at: Point2<f64>, radius: f64, line: &str) -> Circle {
     ring(at, radius, line).set("stroke-dasharray", "2 3").set("stroke-width", px(0.8))
-}
-
-/// How far the open fingers and the palm reach from the gripper's axis, m.
-pub(super) fn reach(object: &Object, place: &Footprint, grasp: StatedGrasp, gripper: &Gripper) -> f64 {
-    let fingers = listed(object, place, grasp, gripper);
-    let fingers = fingers.map_or_else(|| gripper.corner_distance(place), ListedGrasp::corner_distance);
-    gripper.palm().map_or(fingers, |palm| fingers.max(palm.radius))
-}
-
-/// The listed grasp that is stated.
-fn listed<'a>(object: &'a Object, place: &Footprint, grasp: StatedGrasp, gripper: &Gripper) -> Option<&'a ListedGrasp> {
-    let Grasps::Listed(list) = object.grasps() else { return None };
-    let (pose, axis) = (place.pose(), grasp.at.unwrap_or(place.at()));
-    let is = |listed: &&ListedGrasp| {
-        let apart = pose.at + turned(listed.at(), direction(pose.yaw)) - axis;
-        let turns = (pose.yaw + listed.yaw() - grasp.yaw) / gripper.period();
-        apart.norm() < SAME && (turns - turns.round()).abs() < SAME
-    };
-    list.iter().find(is)
 }

@@ -5,6 +5,7 @@
 mod fill;
 mod hand;
 mod headline;
+mod held;
 mod label;
 mod legend;
 mod lines;

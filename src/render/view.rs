@@ -2,10 +2,10 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::hand;
+use super::held;
 use super::roles::Roles;
 use singulate_planner::scene::{Footprint, Object, Scene};
-use singulate_planner::statement::{StatedGrasp, StatedPose, Statement, Step};
+use singulate_planner::statement::{StatedGrasp, Statement};
 
 /// Padding on all sides, px.
 pub(super) const PADDING: f64 = 24.0;
@@ -90,13 +90,13 @@ fn drawn<'a>(
     let gripper = scene.gripper();
     let hand = move |object: &Object, place: &Footprint, grasp: StatedGrasp| {
         let (axis, reach) =
-            (grasp.at.unwrap_or(place.at()), Vector2::repeat(hand::reach(object, place, grasp, gripper)));
+            (grasp.at.unwrap_or(place.at()), Vector2::repeat(held::reach(object, place, grasp, gripper)));
         [axis - reach, axis + reach]
     };
     let moved = stated.steps().iter().flat_map(move |step| {
         let object = roles.object(step.object());
         let held = move |object: &'a Object| {
-            held(step).into_iter().flatten().flat_map(move |(pose, grasp)| {
+            step.holds().flat_map(move |(pose, grasp)| {
                 let place = object.footprint().moved_to(pose.into());
                 [place.bounding_box(), hand(object, &place, grasp)]
             })
@@ -106,12 +106,4 @@ fn drawn<'a>(
     let target = stated.target_grasp.zip(roles.grasped());
     let target = target.map(move |(grasp, object)| hand(object, object.footprint(), grasp));
     scene.objects().iter().map(|object| object.footprint().bounding_box()).chain(moved).chain(target)
-}
-
-/// Where a step holds its object on the table, and how.
-fn held(step: &Step) -> [Option<(StatedPose, StatedGrasp)>; 2] {
-    match step {
-        Step::PickPlace(step) => [step.from.map(|from| (from, step.grasp)), Some((step.to, step.release))],
-        Step::PickDrop(step) => [step.from.map(|from| (from, step.grasp)), None],
-    }
 }

@@ -126,6 +126,15 @@ impl Step {
         }
     }
 
+    /// Where the hand holds the object on the table before and after, as far as stated, and how.
+    pub fn holds(&self) -> impl Iterator<Item = (StatedPose, StatedGrasp)> + use<> {
+        let (from, grasp, set_down) = match self {
+            Self::PickPlace(step) => (step.from, step.grasp, Some((step.to, step.release))),
+            Self::PickDrop(step) => (step.from, step.grasp, None),
+        };
+        from.map(|from| (from, grasp)).into_iter().chain(set_down)
+    }
+
     /// What the step adds to the cost of a plan: at least one, since a bound counts the objects that have to move.
     pub fn cost(&self) -> Cost {
         match self {

@@ -79,7 +79,7 @@ fn a_sharp_rectangle_is_four_turned_corners() {
     assert!(!path.contains('A'), "{path}");
     // Each edge by both ends.
     let expected = [(-0.1, -0.05), (0.1, -0.05), (0.1, 0.05), (-0.1, 0.05)].map(|(x, y)| {
-        let (cos, sin) = (0.3_f64.cos(), 0.3_f64.sin());
+        let (cos, sin) = (libm::cos(0.3), libm::sin(0.3));
         view.point(Point2::new(0.6 + x * cos - y * sin, 0.3 + x * sin + y * cos))
     });
     let drawn = corners(path);
