@@ -89,7 +89,7 @@ fn json(draft: &SceneDraft, settings: &str) -> String {
     let number = |value: Option<f64>| value.expect("a full draft");
     let object = |object: &ObjectDraft| {
         let id = object.id.as_deref().expect("an id");
-        let (x, y, radius) = (number(object.x), number(object.y), number(object.shape.radius));
+        let (x, y, radius) = (number(object.x), number(object.y), number(object.shape.disc_radius()));
         format!(r#"{{"id":"{id}","x":{x},"y":{y},"radius":{radius},"fixed":{}}}"#, object.fixed)
     };
     let objects: Vec<String> = draft.objects.iter().map(object).collect();

@@ -72,7 +72,7 @@ pub(crate) fn crumbs(fingers: f64, clearance: f64) -> SceneDraft {
         x: Some(place(i, 7 * i + 13 * j)),
         y: Some(place(j, 5 * i + 3 * j)),
         shape: ShapeDraft::disc(0.001),
-        fixed: false,
+        ..ObjectDraft::default()
     };
     let objects = (0..100).flat_map(|i| (0..100).map(move |j| (i, j))).map(crumb).collect();
     let top = RectangleDraft { x_min: Some(0.0), y_min: Some(0.0), x_max: Some(0.4), y_max: Some(0.4) };
