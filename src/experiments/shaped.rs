@@ -67,13 +67,17 @@ fn with_palm(gripper: GripperDraft, random: &mut ChaCha8Rng) -> GripperDraft {
 fn shaped_object(disc: &ObjectDraft, gripper: GripperDraft, random: &mut ChaCha8Rng) -> ObjectDraft {
     let radius = disc.shape.disc_radius().unwrap_or_default();
     let shape = match whole(random, 0, 4) {
+        // Every third disc as a detector sees it: only in the ways that it proposes.
+        0 if chance(random, 0.3) => {
+            return ObjectDraft { grasps: Some(detected(radius, random)), ..disc.clone() };
+        }
         0 => return disc.clone(),
         1 | 2 => rectangle(radius, random),
         3 => capsule(radius, random),
         _ => polygon(radius, random),
     };
     let yaw = Some(whole_micrometres(between(random, (0.0, TAU))));
-    let grasps = (!graspable_by_default(&shape, gripper)).then(|| detected(random));
+    let grasps = (!graspable_by_default(&shape, gripper)).then(|| detected(radius, random));
     ObjectDraft { shape, yaw, grasps, ..disc.clone() }
 }
 
@@ -102,7 +106,12 @@ fn polygon(radius: f64, random: &mut ChaCha8Rng) -> ShapeDraft {
         let angle = step * f64::from(n) + off;
         [libm::cos(angle), libm::sin(angle)].map(|share| Some(whole_micrometres(radius * share)))
     };
-    ShapeDraft::Polygon { points: (0..corners).map(point).collect(), corner_radius }
+    let mut points: Vec<[Option<f64>; 2]> = (0..corners).map(point).collect();
+    if chance(random, 0.2) {
+        // A notch, which the hull covers.
+        points.insert(1, [Some(0.0), Some(0.0)]);
+    }
+    ShapeDraft::Polygon { points, corner_radius }
 }
 
 fn graspable_by_default(shape: &ShapeDraft, gripper: GripperDraft) -> bool {
@@ -114,9 +123,14 @@ fn graspable_by_default(shape: &ShapeDraft, gripper: GripperDraft) -> bool {
     }
 }
 
-fn detected(random: &mut ChaCha8Rng) -> Vec<GraspDraft> {
+/// Two grasps beside the middle of an object of so great a radius.
+fn detected(radius: f64, random: &mut ChaCha8Rng) -> Vec<GraspDraft> {
     let first = whole_micrometres(between(random, (0.0, FRAC_PI_2)));
-    let grasp = |yaw: f64| GraspDraft { yaw: Some(yaw), tolerance: Some(0.02), ..GraspDraft::default() };
+    let mut grasp = |yaw: f64| {
+        let mut aside = || Some(whole_micrometres(0.3 * radius * between(random, (-1.0, 1.0))));
+        let (x, y) = (aside(), aside());
+        GraspDraft { x, y, yaw: Some(yaw), tolerance: Some(whole_micrometres(between(random, (0.0, 0.1)))) }
+    };
     vec![grasp(first), grasp(first + 0.5)]
 }
 

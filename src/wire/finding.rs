@@ -71,7 +71,7 @@ fn code(flaw: &Flaw) -> ErrorCode {
         Flaw::NoGrasp(_) => ErrorCode::NoGrasp,
         Flaw::DefaultGrasps(_) => ErrorCode::DefaultGrasps,
         Flaw::UnknownHeight(_) => ErrorCode::UnknownHeight,
-        Flaw::TooManyGrasps { .. } => ErrorCode::TooManyGrasps,
+        Flaw::TooManyGrasps { .. } | Flaw::TooMuchClosing => ErrorCode::TooManyGrasps,
         Flaw::TooManyPoints { .. } => ErrorCode::TooManyPoints,
         Flaw::NoArea => ErrorCode::NoArea,
         Flaw::ConvexHull { .. } => ErrorCode::ConvexHull,

@@ -12,7 +12,7 @@ use super::TOLERANCE;
 use super::body::Body;
 use super::fault::{FaultCode, Faults, figure, point};
 use super::finger::wrap;
-use super::grip::{Grip, Hold, band_of};
+use super::grip::{Grip, Hold, band_of, work};
 use super::hand::Hand;
 use super::leaning::Leaning;
 use super::near::{PlaceIndex, Places, Standing};
@@ -52,7 +52,11 @@ impl<'a> Grasping<'_, 'a> {
 
     /// How far a stated yaw of a listed grasp may be off, rad.
     fn off_yaw(&self, grasp: &ListedGrasp) -> f64 {
-        if self.terms.exact() { TOLERANCE } else { band_of(grasp, self.scene.gripper()).max(TOLERANCE) }
+        if self.terms.position_tolerance == 0.0 {
+            TOLERANCE
+        } else {
+            band_of(grasp, self.scene.gripper()).max(TOLERANCE)
+        }
     }
 
     /// The grasp of the object where it stands. The result is the listed grasp, if it is one.
@@ -64,7 +68,10 @@ impl<'a> Grasping<'_, 'a> {
             self.centred(code, body, stated)?;
             return Ok(None);
         };
-        let held = list.iter().position(|grasp| self.is(grasp, body, stated));
+        // Of those that are near enough, the nearest: within a tolerance there may be several.
+        let near = (0..list.len()).filter(|&at| self.is(&list[at], body, stated));
+        let off = |at: &usize| self.off(&list[*at], body, stated);
+        let held = near.min_by(|a, b| off(a).total_cmp(&off(b)));
         match held {
             Some(at) => self.hold(code, body, &list[at], stated)?,
             None => {
@@ -90,7 +97,10 @@ impl<'a> Grasping<'_, 'a> {
         if !self.resolvable(release) {
             return Ok(());
         }
-        let (turn, tolerance) = (to.pose.yaw - from.pose.yaw, self.off_yaw(grasp));
+        // Where a tolerance forgives what was seen since, the hand still turns as planned.
+        let planned = step.from.filter(|_| self.terms.position_tolerance > 0.0).and_then(|from| from.yaw);
+        let tolerance = if planned.is_some() { TOLERANCE } else { self.off_yaw(grasp) };
+        let turn = to.pose.yaw - planned.unwrap_or(from.pose.yaw);
         self.turns(turn, release.yaw - step.grasp.yaw, tolerance, "the hand");
         if let Some(stated) = step.turn {
             self.turns(turn, stated, tolerance, "as stated it");
@@ -117,10 +127,15 @@ impl<'a> Grasping<'_, 'a> {
     /// True if what is stated is this grasp of the object where it stands.
     fn is(&self, grasp: &ListedGrasp, body: &Body, stated: StatedGrasp) -> bool {
         let axis = stated.at.unwrap_or(body.pose.at);
+        let near = (axis - body.point(grasp.at())).norm() <= self.off_axis();
+        near && self.off(grasp, body, stated) <= self.off_yaw(grasp)
+    }
+
+    /// How far the stated yaw is from that of a listed grasp, rad.
+    fn off(&self, grasp: &ListedGrasp, body: &Body, stated: StatedGrasp) -> f64 {
         let period = self.scene.gripper().period();
         let turned = (stated.yaw - body.pose.yaw - grasp.yaw()) / period;
-        let off = (turned - turned.round()).abs() * period;
-        (axis - body.point(grasp.at())).norm() <= self.off_axis() && off <= self.off_yaw(grasp)
+        (turned - turned.round()).abs() * period
     }
 
     /// Reports a turn that is not the object's.
@@ -172,13 +187,22 @@ impl<'a> Grasping<'_, 'a> {
             let detail = || format!("the slack of this grasp is {band:.9} rad, not {} rad", figure(slack));
             self.fault(FaultCode::WrongSlack, detail);
         }
-        self.ticker.step(4)?;
+        self.ticker.step(work(grasp, self.stated().footprint().shape(), gripper))?;
         let hold = Hold::new(self.stated().footprint().shape(), grasp, gripper, Leaning::Free);
         if hold.too_wide {
             self.fault(FaultCode::TooWide, || "is wider in this grasp than the greatest opening".to_owned());
             return Ok(());
         }
-        self.clear(code, &hold.of(body, gripper))
+        let (mut grip, faults) = (hold.of(body, gripper), self.faults.count());
+        self.clear(code, &grip)?;
+        let aside = ((stated.yaw - grip.yaw) / gripper.period()).fract();
+        let aside = (aside - aside.round()) * gripper.period();
+        if aside.abs() > TOLERANCE && self.faults.count() == faults {
+            // The hand goes by the stated yaw, and may be off from there.
+            grip.yaw += aside;
+            self.clear(code, &grip)?;
+        }
+        Ok(())
     }
 
     /// Fingers and palm meet no other object at any yaw of the band. Names the obstacle that they go deepest into.

@@ -59,6 +59,14 @@ fn yaw_of(grasp: &ListedGrasp, gripper: &Gripper, finger: u32) -> f64 {
     grasp.yaw() + f64::from(finger) * gripper.period()
 }
 
+/// What it takes to find out where the fingers close in a grasp, in units of work: few turns where the band is narrow.
+pub(super) fn work(grasp: &ListedGrasp, shape: &Shape, gripper: &Gripper) -> usize {
+    let corners = shape.core().map_or(1, |core| core.vertices().len());
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a band is at most π")]
+    let turns = 1 + (band_of(grasp, gripper) * corners as f64) as usize;
+    1 + gripper.fingers() as usize * corners * turns / 2
+}
+
 impl Hold {
     /// Finds out how far the fingers close and open, in favour of the claim.
     pub(super) fn new(shape: &Shape, grasp: &ListedGrasp, gripper: &Gripper, leaning: Leaning) -> Self {

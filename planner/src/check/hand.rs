@@ -23,18 +23,21 @@ struct Underside {
     keeps: f64,
 }
 
+/// Heights that differ by no more are equal, m. It is above the leaning, so that what is equal in decimals blocks in no claim.
+const SAME_HEIGHT: f64 = 1.5e-9;
+
 impl Hand {
     /// The hand that grasps `grasped`, or sets it down. Heights that rounding makes equal decide in favour of the claim.
     pub(super) fn at(grasped: &Object, gripper: &Gripper, leaning: Leaning) -> Self {
         let lowest = gripper.tip_height();
         let Some(Palm { finger_length, radius }) = gripper.palm() else {
-            return Self { tips: leaning.back(lowest), palm: None };
+            return Self { tips: leaning.back(lowest + SAME_HEIGHT), palm: None };
         };
         // Either the fingertips are as low as they may be, or the palm is down on the object.
         let top = grasped.height().unwrap_or(0.0);
         let (tips, height) = (lowest.max(top - finger_length), top.max(lowest + finger_length));
-        let palm = Underside { height: leaning.back(height), keeps: radius + gripper.margin() };
-        Self { tips: leaning.back(tips), palm: Some(palm) }
+        let palm = Underside { height: leaning.back(height + SAME_HEIGHT), keeps: radius + gripper.margin() };
+        Self { tips: leaning.back(tips + SAME_HEIGHT), palm: Some(palm) }
     }
 
     /// True if the fingers may meet the obstacle at all. One of unknown height may be as high as any.

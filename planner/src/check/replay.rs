@@ -1,7 +1,7 @@
 //! Replays the steps in order and checks every grasp, every release and every new place.
 
 use crate::budget::{Interrupted, Ticker};
-use crate::scene::{Goal, Grasps, ObjectIndex, Scene};
+use crate::scene::{Goal, Grasps, ObjectIndex, Pose, Scene};
 use crate::statement::{PickDrop, PickPlace, StatedPose, Statement, Step, Verdict};
 
 use super::TOLERANCE;
@@ -15,7 +15,7 @@ use super::grip::band_of;
 use super::names::ObjectNames;
 use super::near::{Places, Standing};
 use super::place::Landing;
-use super::poses::{apart, resolvable};
+use super::poses::{MAX_YAW, apart, resolvable};
 use super::terms::Terms;
 
 struct Replay<'a> {
@@ -180,9 +180,26 @@ impl<'a> Replay<'a> {
         let landing = Landing { scene, places, standing, step: at, object, to: place };
         let gap = step.gap.filter(|_| self.terms.exact());
         landing.check(gap, self.faults, &mut self.ticker)?;
+        if let Some(askew) = self.set_down_askew(object, step, (from, place)) {
+            let (scene, places, standing) = (self.scene, self.places, &self.standing);
+            let landing = Landing { scene, places, standing, step: at, object, to: &askew };
+            landing.check(None, self.faults, &mut self.ticker)?;
+        }
         self.grasping(Some(at), object).release((held, step), (from, place))?;
         self.standing.put(object, to);
         Ok(())
+    }
+
+    /// Where the object comes to stand if the hand turns as planned and the object was turned a little beside the plan when it was
+    /// picked; `None` if it was not, or if nobody sees how it is turned.
+    fn set_down_askew(&self, object: ObjectIndex, step: &PickPlace, (from, to): (&Body, &Body)) -> Option<Body> {
+        let stated = self.scene.object(object);
+        let yaw = step.from?.yaw.filter(|_| matches!(stated.grasps(), Grasps::Listed(_)))?;
+        let off = wrap(from.pose.yaw - yaw);
+        let axis = step.release.at.unwrap_or(to.pose.at);
+        let at = axis + nalgebra::Rotation2::new(off) * (to.pose.at - axis);
+        let pose = Pose { at, yaw: to.pose.yaw + off };
+        (off.abs() > TOLERANCE).then(|| Body::new(stated.footprint().shape(), pose))
     }
 
     fn pick_drop(&mut self, at: usize, step: &PickDrop) -> Result<(), Interrupted> {
@@ -216,7 +233,10 @@ impl<'a> Replay<'a> {
         } else if stated.fixed() {
             (FaultCode::FixedObjectMoved, "a fixed object can't be moved")
         } else if !self.allowed.graspable(object) {
-            (FaultCode::TooWide, "is wider than the greatest opening")
+            (
+                FaultCode::TooWide,
+                "can't be grasped: it is too wide for the hand, has no grasp, or is as low as the fingertips",
+            )
         } else if self.standing.gone(object) {
             (FaultCode::AlreadyGone, "was taken away before")
         } else {
@@ -249,8 +269,8 @@ impl<'a> Replay<'a> {
         let (Grasps::Listed(list), Some(yaw)) = (self.scene.object(object).grasps(), stated.yaw) else { return };
         // What is seen a little beside its place may be turned a little too: as far as its grasps forgive.
         let forgiven = list.iter().map(|grasp| band_of(grasp, self.scene.gripper())).fold(0.0, f64::max);
-        let tolerance = if self.terms.exact() { TOLERANCE } else { forgiven.max(TOLERANCE) };
-        let agrees = wrap(yaw - real.yaw).abs() <= tolerance;
+        let tolerance = if self.terms.position_tolerance == 0.0 { TOLERANCE } else { forgiven.max(TOLERANCE) };
+        let agrees = yaw.abs() <= MAX_YAW && wrap(yaw - real.yaw).abs() <= tolerance;
         if !agrees {
             wrong(format!("stands at yaw {}, not at yaw {}", figure(real.yaw), figure(yaw)));
         }

@@ -9,7 +9,7 @@ use crate::scene::{Grasps, ListedGrasp, ObjectIndex, Scene};
 
 use super::body::Body;
 use super::finger::Finger;
-use super::grip::Hold;
+use super::grip::{Hold, work};
 use super::hand::Hand;
 use super::leaning::Leaning;
 use super::near::Tree;
@@ -116,7 +116,7 @@ impl<'s> Rings<'s> {
         let (gripper, shape) = (self.scene.gripper(), self.scene.object(object).footprint().shape());
         let mut grasps = Vec::with_capacity(list.len());
         for grasp in list {
-            ticker.step(4)?;
+            ticker.step(work(grasp, shape, gripper))?;
             let hold = Hold::new(shape, grasp, gripper, self.leaning);
             if hold.too_wide {
                 continue;

@@ -24,13 +24,8 @@ impl Border {
     /// hinders the release; where it no longer hinders a grasp of the obstacle. It is turned as `own` is.
     pub(super) fn beside(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper, gap: f64) -> Self {
         let (radius, others) = (own.footprint.radius(), obstacle.footprint.radius());
-        let clear = gripper.margin() + INSIDE;
         let touching = radius + others + gap + INSIDE;
-        // Of long objects the circles are only near enough: they are where nothing hinders any more.
-        let apart = [
-            reach(own, gripper) + obstacle.footprint.circumradius() + clear,
-            reach(obstacle, gripper) + own.footprint.circumradius() + clear,
-        ];
+        let apart = apart(own, obstacle, gripper);
         let at = obstacle.footprint.at();
         let mirrored = own.footprint.core().map(Core::mirrored);
         let theirs = obstacle.footprint.core();
@@ -43,6 +38,12 @@ impl Border {
         let mut border = Self::round(at, theirs, mirrored.as_ref(), touching);
         border.circles.extend(apart.map(|radius| Circle::whole(at, radius)));
         border
+    }
+
+    /// No curve beside an obstacle is farther from the obstacle's origin than this, m.
+    pub(super) fn span_beside(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper, gap: f64) -> f64 {
+        let touching = own.footprint.circumradius() + obstacle.footprint.circumradius() + gap + INSIDE;
+        apart(own, obstacle, gripper).into_iter().fold(touching, f64::max)
     }
 
     /// The outline of the sum of two cores, grown by `radius`.
@@ -143,6 +144,16 @@ impl Border {
         // Where there are sides or edges and circles, their ends lie on the circles.
         self.circles.iter().map(|circle| distance(circle.centre, point) + circle.radius).fold(0.0, f64::max)
     }
+}
+
+/// How far apart two origins are where the obstacle no longer hinders the release, and where the object no longer hinders a grasp
+/// of the obstacle, m. Of long objects that is only near enough.
+fn apart(own: Placed<'_>, obstacle: Placed<'_>, gripper: &Gripper) -> [f64; 2] {
+    let clear = gripper.margin() + INSIDE;
+    [
+        reach(own, gripper) + obstacle.footprint.circumradius() + clear,
+        reach(obstacle, gripper) + own.footprint.circumradius() + clear,
+    ]
 }
 
 /// How far from an object's origin another one can hinder a grasp of it, without the margin, m.

@@ -5,6 +5,7 @@
 //! out in the order of their scores, and only the curves that matter are expanded.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -46,7 +47,7 @@ pub(super) struct Candidates {
     /// How far an obstacle's border reaches from the obstacle's origin, at most, m.
     span: f64,
     /// Per obstacle its border, where it is not made of circles alone and so is worth keeping.
-    borders: Vec<Option<Box<Border>>>,
+    borders: Vec<OnceCell<Box<Border>>>,
     /// Per obstacle whether its border is expanded: the points where it meets other borders are in the heap.
     expanded: Vec<bool>,
     /// The same per keep-out.
@@ -126,7 +127,7 @@ impl Candidates {
             origin,
             table: Border::default(),
             span: 0.0,
-            borders: vec![None; scene.objects().len()],
+            borders: vec![OnceCell::new(); scene.objects().len()],
             expanded: vec![false; scene.objects().len()],
             expanded_areas: vec![false; scene.table().keep_out().len()],
             heap: BinaryHeap::new(),
@@ -224,28 +225,43 @@ impl Candidates {
 
     fn add_obstacles(&mut self, layout: &Layout<'_>) {
         for object in layout.scene().indices().filter(|&object| !layout.is_lifted(object)) {
-            let (at, border) = (layout.footprint(object).at(), self.beside(layout, object).into_owned());
-            self.span = self.span.max(border.farthest(at));
+            let at = layout.footprint(object).at();
+            let [near, far, span] = self.bounds(layout, object);
+            self.span = self.span.max(span);
             let score = match self.spec.objective {
-                Objective::FarFromTarget => border.farthest(self.origin),
-                Objective::ShortMoves => -border.nearest(self.origin),
+                Objective::FarFromTarget => far,
+                Objective::ShortMoves => -near,
             };
             self.heap.push(HeapEntry { score, at, kind: Kind::Obstacle(object) });
-            if !border.edges.is_empty() {
-                self.borders[object.get()] = Some(Box::new(border));
-            }
         }
+    }
+
+    /// Bounds on the distance of the border beside an obstacle from the origin, least and greatest, and from the obstacle's origin,
+    /// m. Exact where it is made of circles alone; other borders are made when they are needed.
+    fn bounds(&self, layout: &Layout<'_>, object: ObjectIndex) -> [f64; 3] {
+        let (own, obstacle) = self.pair(layout, object);
+        let at = obstacle.footprint.at();
+        if own.footprint.core().is_none() && obstacle.footprint.core().is_none() {
+            let border = self.beside(layout, object);
+            return [border.nearest(self.origin), border.farthest(self.origin), border.farthest(at)];
+        }
+        let span = Border::span_beside(own, obstacle, layout.scene().gripper(), self.spec.gap);
+        let away = distance(at, self.origin);
+        [(away - span).max(0.0), away + span, span]
     }
 
     /// The border beside an obstacle.
     fn beside(&self, layout: &Layout<'_>, obstacle: ObjectIndex) -> Cow<'_, Border> {
-        if let Some(border) = &self.borders[obstacle.get()] {
-            return Cow::Borrowed(border);
+        let (own, placed) = self.pair(layout, obstacle);
+        let border = || Border::beside(own, placed, layout.scene().gripper(), self.spec.gap);
+        if own.footprint.core().is_none() && placed.footprint.core().is_none() {
+            return Cow::Owned(border());
         }
-        let scene = layout.scene();
-        let own = Placed { object: scene.object(self.spec.object), footprint: &self.own };
-        let obstacle = Placed { object: scene.object(obstacle), footprint: layout.footprint(obstacle) };
-        Cow::Owned(Border::beside(own, obstacle, scene.gripper(), self.spec.gap))
+        Cow::Borrowed(self.borders[obstacle.get()].get_or_init(|| Box::new(border())))
+    }
+
+    fn pair<'a>(&'a self, layout: &'a Layout<'_>, obstacle: ObjectIndex) -> (Placed<'a>, Placed<'a>) {
+        (Placed { object: layout.scene().object(self.spec.object), footprint: &self.own }, layout.placed(obstacle))
     }
 
     /// Adds the points where a border, which lies within `reach` of `centre`, meets those that are not expanded yet.

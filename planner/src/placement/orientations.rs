@@ -8,7 +8,7 @@ use super::layout::Layout;
 use crate::scene::{Core, Footprint, Gripper, ListedGrasp, ObjectIndex, distance};
 
 /// The most orientations that are tried.
-const MOST: usize = 10;
+const MOST: usize = 16;
 /// Two orientations nearer than this are one, rad.
 const SAME: f64 = 1e-9;
 /// The neighbours along whose edges an object is laid.
@@ -32,7 +32,11 @@ pub(super) fn orientations(layout: &Layout<'_>, object: ObjectIndex) -> Vec<f64>
             quarters.iter().for_each(|quarter| yaws.add(yaw + nearest - side + quarter));
             quarters.iter().for_each(|quarter| yaws.add(yaw + quarter));
             for edge in edges_nearby(layout, object, stands) {
-                quarters.iter().take(2).for_each(|quarter| yaws.add(yaw + edge - side + quarter));
+                quarters.iter().for_each(|quarter| yaws.add(yaw + edge - side + quarter));
+            }
+            // The hand needs room along its fingers: with those along the table's axes it needs least.
+            for grasp in list {
+                quarters.iter().for_each(|quarter| yaws.add(quarter - grasp.yaw()));
             }
         }
     }

@@ -122,7 +122,7 @@ fn steps(
         chaining.move_away(object);
         gone.push(object);
         taken.push(Removal { object, from, grasp, drop_off: 0 });
-        axis = from.at;
+        axis = grasp.axis;
     }
     let places = drop_offs.places();
     taken.iter_mut().for_each(|removal| removal.drop_off = places[removal.object.get()].unwrap_or_default());

@@ -126,6 +126,12 @@ pub enum Flaw {
         /// The most that is admitted.
         max: usize,
     },
+    /// The grasps of all objects together would take too long.
+    #[error(
+        "the grasps of all objects take too long to find out where the fingers close: fewer grasps, fingers or corners, or \
+         smaller tolerances"
+    )]
+    TooMuchClosing,
     /// The tolerance of a grasp is half of the angle between two fingers or more.
     #[error("the tolerance of a grasp is below π/{fingers}")]
     WideTolerance {
@@ -252,7 +258,7 @@ impl Flaw {
 }
 
 /// The most ids that a sentence names.
-const MAX_NAMED: usize = 100;
+const MAX_NAMED: usize = 1000;
 
 /// Ids as a list, which ends early.
 struct Named<'a>(&'a [String]);

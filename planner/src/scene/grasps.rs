@@ -25,7 +25,7 @@ pub enum Grasps {
 }
 
 /// One way to grasp an object, in the object's own frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ListedGrasp {
     at: Vector2<f64>,
     yaw: f64,
@@ -36,8 +36,16 @@ pub struct ListedGrasp {
     closing: OnceLock<Closing>,
 }
 
+/// Two are equal whether or not anybody asked where the fingers close.
+impl PartialEq for ListedGrasp {
+    fn eq(&self, other: &Self) -> bool {
+        let stated = |grasp: &Self| (grasp.at, grasp.yaw, grasp.tolerance);
+        stated(self) == stated(other) && self.shape == other.shape && self.gripper == other.gripper
+    }
+}
+
 /// Where the fingers stand before and after they close.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 struct Closing {
     inner: SmallVec<[f64; 4]>,
     /// How far out a closed finger stands at some yaw of the band, m.
@@ -70,6 +78,13 @@ const SAME: f64 = 1e-9;
 impl ListedGrasp {
     fn new(shape: &Shape, gripper: &Gripper, at: Vector2<f64>, yaw: f64, tolerance: f64) -> Self {
         Self { at, yaw, tolerance, shape: shape.clone(), gripper: *gripper, closing: OnceLock::new() }
+    }
+
+    fn work(&self) -> usize {
+        let corners = self.shape.core().map_or(1, |core| core.vertices().len());
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a band is at most π")]
+        let turns = 3 + (30.0 * self.band() / PI) as usize * corners;
+        self.gripper.fingers as usize * corners * turns
     }
 
     fn closing(&self) -> &Closing {
@@ -192,7 +207,16 @@ impl Grasps {
                 kept.push(grasp);
             }
         }
+        if kept.len() > MAX_GRASPS {
+            faults.add(Place::WholeObject(at), Flaw::TooManyGrasps { count: kept.len(), max: MAX_GRASPS });
+            return None;
+        }
         Some(Self::Listed(kept.into()))
+    }
+
+    /// What it takes at most to find out where the fingers close, in turns of a finger times corners of the object.
+    pub(super) fn work(&self) -> usize {
+        self.listed().into_iter().flatten().map(ListedGrasp::work).sum()
     }
 
     /// The width of the object in its narrowest way, m; `None` without any.

@@ -20,6 +20,9 @@ pub const GRASP_OFFSET_RANGE: (f64, f64) = (-1e3, 1e3);
 pub const MAX_POINTS: usize = 32;
 /// The most grasps of one object. A set of them is 64 bits.
 pub const MAX_GRASPS: usize = 64;
+/// What it may take at most to find out where the fingers close on all objects, in turns of a finger times corners of an object: some
+/// 0.2 s.
+pub const MAX_CLOSING_WORK: usize = 20_000_000;
 /// k: two fingers are the fewest that hold, and no gripper is known with more than twelve.
 pub const FINGERS_RANGE: (f64, f64) = (2.0, 12.0);
 /// How many objects a drop-off takes.

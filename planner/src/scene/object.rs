@@ -1,6 +1,9 @@
 //! Objects on the table.
 
 use super::flaw::Flaw;
+use nalgebra::Point2;
+
+use super::convex::{direction, turned};
 use super::footprint::Footprint;
 use super::grasps::{Grasps, ListedGrasp};
 use super::gripper::Gripper;
@@ -54,6 +57,9 @@ pub struct Placed<'a> {
     pub footprint: &'a Footprint,
 }
 
+/// Heights that differ by no more are equal, m: rounding, where they are sums of decimals.
+const SAME_HEIGHT: f64 = 1e-9;
+
 impl Object {
     /// The caller's name for it, unique in the scene.
     pub fn id(&self) -> &str {
@@ -73,7 +79,9 @@ impl Object {
     pub(super) fn find_hindrance(&mut self, gripper: &Gripper) {
         self.hindrance = match &self.grasps {
             _ if self.fixed => None,
-            _ if self.height.is_some_and(|height| height <= gripper.tip_height()) => Some(Hindrance::NoGrasp),
+            _ if self.height.is_some_and(|height| height <= gripper.tip_height() + SAME_HEIGHT) => {
+                Some(Hindrance::NoGrasp)
+            }
             Grasps::EveryYaw => {
                 let width = 2.0 * self.footprint.circumradius();
                 (!gripper.spans(&self.footprint)).then_some(Hindrance::TooWide(width))
@@ -144,7 +152,7 @@ impl Object {
 
     /// True if fingers that grasp it pass over `obstacle`.
     pub fn fingers_pass_over(&self, obstacle: &Self, gripper: &Gripper) -> bool {
-        obstacle.height.is_some_and(|height| height <= self.tips(gripper))
+        obstacle.height.is_some_and(|height| height <= self.tips(gripper) + SAME_HEIGHT)
     }
 
     /// How near to the gripper's axis the edge of `obstacle` may come, so that the palm does not meet it when the gripper grasps
@@ -153,7 +161,19 @@ impl Object {
         let (palm, height) = (gripper.palm()?, obstacle.height?);
         // The palm is as high as the object or higher: added up, rounding could put it below a neighbour of the same height.
         let palm_height = self.height.unwrap_or(0.0).max(gripper.tip_height() + palm.finger_length);
-        (height > palm_height).then_some(palm.radius + gripper.margin())
+        (height > palm_height + SAME_HEIGHT).then_some(palm.radius + gripper.margin())
+    }
+
+    /// The gripper's axis in each grasp where the object stands, and how far from it the edge of another object can hinder it, m.
+    pub(super) fn hands(&self, gripper: &Gripper) -> impl Iterator<Item = (Point2<f64>, f64)> {
+        let (pose, palm) = (self.footprint.pose(), gripper.palm().map_or(0.0, |palm| palm.radius));
+        let every_yaw = self.grasps.listed().is_none().then(|| (pose.at, self.reach(gripper)));
+        let fitting = self.grasps.listed().unwrap_or_default().iter().filter(|grasp| grasp.fits());
+        let listed = fitting.map(move |grasp| {
+            let axis = pose.at + turned(grasp.at(), direction(pose.yaw));
+            (axis, grasp.corner_distance().max(palm) + gripper.margin())
+        });
+        every_yaw.into_iter().chain(listed)
     }
 
     /// The distance from the origin of its frame within which the edge of another object can hinder a grasp of it, m.

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use nalgebra::Point2;
+
 use super::fault::{Findings, Place};
 use super::flaw::{Flaw, Likely};
 use super::slips;
@@ -44,7 +46,7 @@ pub(super) fn overlaps(
         let mut touched = if object.fixed {
             earlier.remove(&this).unwrap_or_default()
         } else {
-            touching(index, &object.footprint).take(max + 2).collect()
+            touching(index, &object.footprint, max).take(max + 2).collect()
         };
         // The index finds the object itself too.
         if touched.len() > max + 1 && !object.fixed {
@@ -65,8 +67,13 @@ pub(super) fn overlaps(
 }
 
 /// The objects that may overlap with a footprint, itself among them.
-fn touching<'a>(index: &'a FootprintIndex, footprint: &'a Footprint) -> impl Iterator<Item = ObjectIndex> + 'a {
-    let near = index.within(footprint.at(), footprint.circumradius());
+/// Of a long one only so many that come near are looked at as bound the work: its grasps have fewer in reach, or it is refused.
+fn touching<'a>(
+    index: &'a FootprintIndex,
+    footprint: &'a Footprint,
+    max: usize,
+) -> impl Iterator<Item = ObjectIndex> + 'a {
+    let near = index.within(footprint.at(), footprint.circumradius()).take(4 * (max + 2));
     // A disc that comes so near to a disc overlaps with it.
     let discs = move |other: &Footprint| footprint.core().is_none() && other.core().is_none();
     near.filter(move |(_, other)| discs(other) || !footprint.keeps_from(other, 0.0)).map(|(other, _)| other)
@@ -106,9 +113,10 @@ pub(super) fn reach(
         let id = || object.id.clone();
         let reach = object.reach(gripper);
         // The index finds the object itself too.
-        if index.within(object.footprint.at(), reach).take(limits.max_neighbours + 2).count()
-            > limits.max_neighbours + 1
-        {
+        let crowd = |centre: Point2<f64>, reach: f64| {
+            index.within(centre, reach).take(limits.max_neighbours + 2).count() > limits.max_neighbours + 1
+        };
+        if crowd(object.footprint.at(), reach) && object.hands(gripper).any(|(axis, reach)| crowd(axis, reach)) {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: id(), max: limits.max_neighbours });
         }
         // Two jaws face each other: they have no sides to overlap with.

@@ -129,7 +129,8 @@ fn hull(at: usize, points: &[[Option<f64>; 2]], faults: &mut Findings, warnings:
         return None;
     };
     let (stated, area) = (shoelace(&points), hull.area());
-    if area > stated * (1.0 + GROWTH) {
+    // Points that go round twice have more than the area of their hull.
+    if (area - stated).abs() > area * GROWTH {
         warnings.add(Place::Shape(at, "points"), Flaw::ConvexHull { stated, area });
     }
     Some(hull)

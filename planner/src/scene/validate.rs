@@ -12,8 +12,8 @@ use super::flaw::Flaw;
 use super::grasps::Grasps;
 use super::gripper::Palm;
 use super::limits::{
-    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_ID_LENGTH, SceneLimits, TIP_HEIGHT_RANGE,
-    YAW_RANGE, YAW_TOLERANCE_RANGE,
+    COORDINATE_RANGE, FINGERS_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_CLOSING_WORK, MAX_ID_LENGTH, SceneLimits,
+    TIP_HEIGHT_RANGE, YAW_RANGE, YAW_TOLERANCE_RANGE,
 };
 use super::relations::{overhangs, overlaps, reach};
 use super::shape_draft::ranged;
@@ -60,8 +60,14 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     warnings.append(assumed);
     overlaps(&objects, &index, limits, &mut faults, &mut warnings);
     if let Some(gripper) = &gripper {
-        not_graspable(gripper, &mut objects, &mut warnings);
+        if objects.iter().map(|object| object.grasps.work()).sum::<usize>() > MAX_CLOSING_WORK {
+            faults.add(Place::Objects, Flaw::TooMuchClosing);
+            return Err(faults.into_vec());
+        }
+        objects.iter_mut().for_each(|object| object.find_hindrance(gripper));
+        // One sentence for many objects first: the list of warnings ends early.
         assumptions(gripper, &draft.objects, &objects, &mut warnings);
+        not_graspable(gripper, &objects, &mut warnings);
         reach(gripper, &objects, &index, limits, &mut faults, &mut warnings);
     }
     let (Some(table), Some(gripper), Some(drop_offs), Some(goal)) = (table, gripper, drop_offs, goal) else {
@@ -78,10 +84,9 @@ pub(super) fn validate(draft: SceneDraft, limits: &SceneLimits) -> Result<(Scene
     Ok((Scene { parts: Arc::new(parts), goal: Arc::new(goal) }, warnings.into_vec()))
 }
 
-/// Marks and warns of objects that the hand can't grasp.
-fn not_graspable(gripper: &Gripper, objects: &mut [Object], warnings: &mut Findings) {
-    for (at, object) in objects.iter_mut().enumerate() {
-        object.find_hindrance(gripper);
+/// Warns of objects that the hand can't grasp.
+fn not_graspable(gripper: &Gripper, objects: &[Object], warnings: &mut Findings) {
+    for (at, object) in objects.iter().enumerate() {
         warnings.extend(Place::WholeObject(at), object.flaw(gripper));
     }
 }

@@ -118,14 +118,6 @@ impl Step {
         }
     }
 
-    /// Where the object stands on the table before and after, as far as stated.
-    pub fn places(&self) -> impl Iterator<Item = StatedPose> + use<> {
-        match self {
-            Self::PickPlace(step) => step.from.into_iter().chain(Some(step.to)),
-            Self::PickDrop(step) => step.from.into_iter().chain(None),
-        }
-    }
-
     /// Where the hand holds the object on the table before and after, as far as stated, and how.
     pub fn holds(&self) -> impl Iterator<Item = (StatedPose, StatedGrasp)> + use<> {
         let (from, grasp, set_down) = match self {
