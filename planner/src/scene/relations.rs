@@ -43,13 +43,15 @@ pub(super) fn overlaps(
     let mut earlier: HashMap<ObjectIndex, Vec<ObjectIndex>> = HashMap::new();
     for (at, object) in objects.iter().enumerate() {
         let this = ObjectIndex::new(at);
-        let mut touched = if object.fixed {
-            earlier.remove(&this).unwrap_or_default()
+        let touched = if object.fixed {
+            Some(earlier.remove(&this).unwrap_or_default())
         } else {
-            touching(index, &object.footprint, max).take(max + 2).collect()
+            touching(index, &object.footprint, max)
         };
         // The index finds the object itself too.
-        if touched.len() > max + 1 && !object.fixed {
+        let too_many = touched.as_ref().is_none_or(|touched| touched.len() > max + 1);
+        let mut touched = touched.unwrap_or_default();
+        if too_many && !object.fixed {
             faults.add(Place::WholeObject(at), Flaw::TooManyNeighbours { id: object.id.clone(), max });
         }
         for &later in touched.iter().filter(|other| **other > this && objects[other.get()].fixed) {
@@ -66,17 +68,26 @@ pub(super) fn overlaps(
     }
 }
 
-/// The objects that may overlap with a footprint, itself among them.
-/// Of a long one only so many that come near are looked at as bound the work: its grasps have fewer in reach, or it is refused.
-fn touching<'a>(
-    index: &'a FootprintIndex,
-    footprint: &'a Footprint,
-    max: usize,
-) -> impl Iterator<Item = ObjectIndex> + 'a {
-    let near = index.within(footprint.at(), footprint.circumradius()).take(4 * (max + 2));
-    // A disc that comes so near to a disc overlaps with it.
-    let discs = move |other: &Footprint| footprint.core().is_none() && other.core().is_none();
-    near.filter(move |(_, other)| discs(other) || !footprint.keeps_from(other, 0.0)).map(|(other, _)| other)
+/// The first objects that may overlap with a footprint, itself among them, one more than may be. `None` if more come near than are
+/// worth looking at: a long object has many near that it does not touch.
+fn touching(index: &FootprintIndex, footprint: &Footprint, max: usize) -> Option<Vec<ObjectIndex>> {
+    let looks = max.saturating_add(2).saturating_mul(4);
+    let (mut looked, mut touched) = (0, Vec::new());
+    for (object, other) in index.within(footprint.at(), footprint.circumradius()) {
+        // A disc that comes so near to a disc overlaps with it.
+        let discs = footprint.core().is_none() && other.core().is_none();
+        if discs || !footprint.keeps_from(other, 0.0) {
+            touched.push(object);
+        }
+        looked += 1;
+        if touched.len() > max.saturating_add(1) {
+            break;
+        }
+        if looked > looks {
+            return None;
+        }
+    }
+    Some(touched)
 }
 
 /// Reports the overlap of the object at `at` with an earlier one.
