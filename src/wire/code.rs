@@ -69,6 +69,8 @@ pub enum ErrorCode {
     DefaultGrasps,
     /// Objects without a height, where a palm is described. Only ever a warning.
     UnknownHeight,
+    /// The gripper's axis is beside the object in a listed grasp; the table's frame for the object's? Only ever a warning.
+    AxisBesideObject,
     /// No drop-off accepts an object that is to be taken away.
     NotAccepted,
     /// A list of ids without an id.

@@ -70,7 +70,7 @@ fn every_warning_is_explained() {
     // These are found while the request is read.
     let of_scenes = ["overlap", "fingers_overlap", "hangs_over_table", "wide_yaw_tolerance", "out_of_proportion"];
     let of_goals = ["too_wide", "unknown_object", "no_drop_off", "id_length"];
-    let of_shapes = ["no_grasp", "convex_hull", "default_grasps", "unknown_height"];
+    let of_shapes = ["no_grasp", "convex_hull", "default_grasps", "unknown_height", "axis_beside_object"];
     for word in [&of_scenes[..], &of_goals, &of_shapes].concat() {
         assert!(listed.remove(word) && enumerated("ErrorCode").contains(word), "{word}");
     }

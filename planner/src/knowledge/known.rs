@@ -4,7 +4,7 @@ use super::base::KnowledgeBase;
 use super::grasp_model::{GraspModel, blockers};
 use super::options::{Blocker, blocking};
 use super::scene_base::{NoBase, complete};
-use crate::budget::Budget;
+use crate::budget::{Budget, Interrupted};
 use crate::geometry::{Arc, ArcSet, Grasp, Shadow, listed};
 use crate::scene::{Grasps, ObjectIndex, Scene};
 
@@ -49,27 +49,36 @@ pub fn known(scene: &Scene, model: &dyn GraspModel, budget: &Budget<'_>) -> Resu
     let base = complete(scene, model, budget)?;
     let each = scene.indices().map(|object| {
         budget.check()?;
-        Ok(of_object(scene, &base, model, object))
+        Ok(of_object(scene, &base, model, object, budget)?)
     });
     each.collect()
 }
 
-fn of_object(scene: &Scene, base: &KnowledgeBase, model: &dyn GraspModel, object: ObjectIndex) -> ObjectKnowledge {
+fn of_object(
+    scene: &Scene,
+    base: &KnowledgeBase,
+    model: &dyn GraspModel,
+    object: ObjectIndex,
+    budget: &Budget<'_>,
+) -> Result<ObjectKnowledge, Interrupted> {
     if !scene.object(object).can_be_grasped() {
         let grasps = scene.object(object).grasps().listed().map(|_| Vec::new());
-        return ObjectKnowledge { object, options: Vec::new(), shadows: Vec::new(), grasps };
+        return Ok(ObjectKnowledge { object, options: Vec::new(), shadows: Vec::new(), grasps });
     }
-    let shadows = blockers(scene, object, model);
+    let shadows = blockers(scene, object, model, budget)?;
     let movable = |option: &&[ObjectIndex]| option.iter().all(|&member| scene.movable(member));
     // What no drop-off accepts has no rules by which it is moved, and yet it can be grasped.
-    let own = (!scene.movable(object)).then(|| KnowledgeBase::from_iter([model.options(scene, object)]));
+    let own = match scene.movable(object) {
+        true => None,
+        false => Some(KnowledgeBase::from_iter([model.options(scene, object, budget)?])),
+    };
     let (base, row) = own.as_ref().map_or((base, object), |own| (own, ObjectIndex::new(0)));
     let options = base
         .options(row)
         .filter(movable)
         .map(|option| KnownOption { members: option.to_vec(), free: free_without(scene, object, &shadows, option) });
     let (options, grasps) = (options.collect(), grasps(scene, object, &shadows));
-    ObjectKnowledge { object, options, shadows, grasps }
+    Ok(ObjectKnowledge { object, options, shadows, grasps })
 }
 
 fn grasps(scene: &Scene, object: ObjectIndex, shadows: &[Blocker]) -> Option<Vec<KnownGrasp>> {

@@ -50,7 +50,7 @@ pub fn completed(
         budget.check()?;
         // An object without options in `part` was not derived there: every movable object has at least one.
         if part.rules_of(object).is_empty() {
-            base.push(bodies(scene, object, model));
+            base.push(bodies(scene, object, model, budget)?);
         } else {
             base.push_same(part, Some(object));
         }
@@ -120,7 +120,7 @@ fn reached_from(
     order.iter().for_each(|object| seen[object.get()] = true);
     while let Some(&object) = order.get(reached.len()) {
         budget.check()?;
-        reached.push(bodies(scene, object, model));
+        reached.push(bodies(scene, object, model, budget)?);
         for &member in reached.options(ObjectIndex::new(reached.len() - 1)).flatten() {
             if !core::mem::replace(&mut seen[member.get()], true) {
                 order.push(member);
@@ -146,7 +146,8 @@ pub fn fixed_blockers(
     let mut found: Vec<ObjectIndex> = Vec::new();
     for &member in members.iter().filter(|member| !stays(**member)) {
         budget.check()?;
-        found.extend(those_blocking(scene, member, &SweptFinger, stays).into_iter().map(|blocker| blocker.object));
+        let blockers = those_blocking(scene, member, &SweptFinger, stays, budget)?;
+        found.extend(blockers.into_iter().map(|blocker| blocker.object));
     }
     found.sort_unstable();
     found.dedup();
@@ -161,6 +162,11 @@ fn has_rules(scene: &Scene, object: ObjectIndex) -> bool {
 /// The bodies of the rules by which an object is picked, to be put aside or taken away: the options of the grasp model; none for
 /// an object that is as if fixed. Options with such a member stay: their rules never fire, and locks need them. An action that
 /// moves objects without grasping them adds its bodies here, for all but the candidates, which are grasped in the end.
-fn bodies(scene: &Scene, object: ObjectIndex, model: &dyn GraspModel) -> Vec<Vec<ObjectIndex>> {
-    if has_rules(scene, object) { model.options(scene, object) } else { Vec::new() }
+fn bodies(
+    scene: &Scene,
+    object: ObjectIndex,
+    model: &dyn GraspModel,
+    budget: &Budget<'_>,
+) -> Result<Vec<Vec<ObjectIndex>>, Interrupted> {
+    if has_rules(scene, object) { model.options(scene, object, budget) } else { Ok(Vec::new()) }
 }

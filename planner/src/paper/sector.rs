@@ -2,6 +2,7 @@
 
 use super::angles::{finger_angle, obstacle_extent, radius};
 use super::histogram::PolarHistogram;
+use crate::budget::{Budget, Interrupted};
 use crate::geometry::{ArcSet, Shadow};
 use crate::knowledge::GraspModel;
 use crate::scene::{Footprint, Gripper, ObjectIndex, Placed, Scene, distance};
@@ -18,8 +19,13 @@ impl GraspModel for Sector {
     }
 
     /// The local obstacle sets, of which the base keeps the minimal ones.
-    fn options(&self, scene: &Scene, object: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
-        PolarHistogram::around(scene, object).local_sets()
+    fn options(
+        &self,
+        scene: &Scene,
+        object: ObjectIndex,
+        _: &Budget<'_>,
+    ) -> Result<Vec<Vec<ObjectIndex>>, Interrupted> {
+        Ok(PolarHistogram::around(scene, object).local_sets())
     }
 }
 

@@ -1,8 +1,7 @@
 //! What can be wrong with a scene, or look wrong.
 
-use core::fmt;
-
 use super::Rectangle;
+use super::likely::{Lack, Likely, Named, Yardstick};
 use super::limits::MAX_ID_LENGTH;
 
 /// The kind of a fault or warning. Warnings are: an overlap within the tolerance, fingers that overlap, a disc that
@@ -109,9 +108,29 @@ pub enum Flaw {
         /// The hand's greatest opening, m.
         max_opening: f64,
     },
+    /// No listed grasp of an object opens the hand no wider than it opens. As the goal it is a fault, elsewhere a warning.
+    #[error(
+        "'{id}' needs an opening of {opening:.6} m in its narrowest grasp, more than the greatest opening {max_opening} m"
+    )]
+    NeedsOpening {
+        /// The object's id.
+        id: String,
+        /// The opening that it needs within the tolerance of that grasp, m.
+        opening: f64,
+        /// The hand's greatest opening, m.
+        max_opening: f64,
+    },
     /// An object has no grasp, or is no higher than the fingertips. As the goal it is a fault, elsewhere a warning.
-    #[error("'{0}' has no grasp that the hand can do")]
-    NoGrasp(String),
+    #[error("'{id}' has no grasp: {why}")]
+    NoGrasp {
+        /// The object's id.
+        id: String,
+        /// Why it has none.
+        why: Lack,
+    },
+    /// The gripper's axis is beside the object in a listed grasp.
+    #[error("the gripper's axis is beside '{0}': are 'x' and 'y' in the object's own frame?")]
+    AxisBesideObject(String),
     /// Objects are grasped in the ways that go with their shapes.
     #[error("grasped as their shapes suggest, since no grasps are stated: {}", Named(.0))]
     DefaultGrasps(Vec<String>),
@@ -254,68 +273,5 @@ impl Flaw {
     pub(super) fn unknown_id(id: &str, known: impl FnOnce(String) -> Self) -> Self {
         let length = id.chars().count();
         if length > MAX_ID_LENGTH { Self::IdLength { length, max: MAX_ID_LENGTH } } else { known(id.to_owned()) }
-    }
-}
-
-/// The most ids that a sentence names.
-const MAX_NAMED: usize = 1000;
-
-/// Ids as a list, which ends early.
-struct Named<'a>(&'a [String]);
-
-impl fmt::Display for Named<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (at, id) in self.0.iter().take(MAX_NAMED).enumerate() {
-            write!(f, "{}'{id}'", if at == 0 { "" } else { ", " })?;
-        }
-        match self.0.len().saturating_sub(MAX_NAMED) {
-            0 => Ok(()),
-            more => write!(f, " and {more} more"),
-        }
-    }
-}
-
-/// The likely cause of a fault, as the end of its sentence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Likely {
-    /// No single cause is likely.
-    Open,
-    /// The objects are given in another unit, or in another frame than the table.
-    FrameOrUnit,
-    /// Two detections of one object.
-    SeenTwice,
-    /// The lengths are no metres, or two detections of one object.
-    UnitOrSeenTwice,
-}
-
-impl fmt::Display for Likely {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Open => "",
-            Self::FrameOrUnit => ": another frame, or millimetres instead of metres?",
-            Self::SeenTwice => ": one object seen twice?",
-            Self::UnitOrSeenTwice => ": millimetres instead of metres, or one object seen twice?",
-        })
-    }
-}
-
-/// A length that another one is compared with, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Yardstick {
-    /// The largest radius of an object.
-    LargestRadius(f64),
-    /// The smallest radius of an object.
-    SmallestRadius(f64),
-    /// The sides of the table.
-    Table(f64, f64),
-}
-
-impl fmt::Display for Yardstick {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::LargestRadius(radius) => write!(f, "the largest radius, {radius} m"),
-            Self::SmallestRadius(radius) => write!(f, "the smallest radius, {radius} m"),
-            Self::Table(x, y) => write!(f, "the table of {x:.3} m by {y:.3} m"),
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! The grasps of an object: at every yaw for a disc, else a list in the object's own frame, stated or by default.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::Vector2;
@@ -78,6 +78,17 @@ const SAME: f64 = 1e-9;
 impl ListedGrasp {
     fn new(shape: &Shape, gripper: &Gripper, at: Vector2<f64>, yaw: f64, tolerance: f64) -> Self {
         Self { at, yaw, tolerance, shape: shape.clone(), gripper: *gripper, closing: OnceLock::new() }
+    }
+
+    /// Warns of an axis beside the object, which is seldom meant, and of degrees.
+    fn doubts(&self, (at, n): (usize, usize), id: &str, warnings: &mut Findings) {
+        let away = self.shape.core().map_or(self.offset(), |core| core.distance_to_point(self.at));
+        if away > self.shape.radius() + ROUNDING {
+            warnings.add(Place::Grasp(at, n, "x"), Flaw::AxisBesideObject(id.to_owned()));
+        }
+        if self.yaw.abs() > TAU {
+            warnings.add(Place::Grasp(at, n, "yaw"), Flaw::ManyTurns(self.yaw));
+        }
     }
 
     fn work(&self) -> usize {
@@ -182,11 +193,11 @@ impl Grasps {
 
     /// The grasps of the object at a position: those of the draft, else those that go with its shape.
     pub(super) fn new(
-        at: usize,
+        (at, id): (usize, &str),
         (draft, shape): (&ShapeDraft, &Shape),
         stated: Option<&[GraspDraft]>,
         gripper: &Gripper,
-        faults: &mut Findings,
+        (faults, warnings): (&mut Findings, &mut Findings),
     ) -> Option<Self> {
         let list = match stated {
             Some(stated) if stated.len() > MAX_GRASPS => {
@@ -196,7 +207,9 @@ impl Grasps {
             Some(stated) => {
                 let checked =
                     stated.iter().enumerate().map(|(n, draft)| checked((at, n), draft, shape, gripper, faults));
-                checked.collect::<Vec<_>>().into_iter().collect::<Option<Vec<_>>>()?
+                let list = checked.collect::<Vec<_>>().into_iter().collect::<Option<Vec<_>>>()?;
+                (0..).zip(&list).for_each(|(n, grasp): (usize, &ListedGrasp)| grasp.doubts((at, n), id, warnings));
+                list
             }
             None if draft.is_disc() => return Some(Self::EveryYaw),
             None => by_default(draft, shape, gripper),

@@ -15,6 +15,7 @@ mod goal;
 mod grasps;
 mod gripper;
 mod index;
+mod likely;
 mod limits;
 mod object;
 mod relations;
@@ -33,12 +34,13 @@ pub use convex::{Axis, Core, direction, turned};
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 pub use drop_off::{Destination, DropOff, DropOffDraft};
 pub use fault::{Finding, MAX_FINDINGS, Place};
-pub use flaw::{Flaw, Likely, Yardstick};
+pub use flaw::Flaw;
 pub use footprint::{Footprint, Pose, distance};
 pub use goal::{Goal, GoalDraft};
 pub use grasps::{DEFAULT_TOLERANCE, GraspDraft, Grasps, ListedGrasp};
 pub use gripper::{Gripper, MIN_FREE_WIDTH, Opening, Palm};
 pub use index::FootprintIndex;
+pub use likely::{Lack, Likely, Yardstick};
 pub use limits::{
     CAPACITY_RANGE, COORDINATE_RANGE, FINGERS_RANGE, GRASP_OFFSET_RANGE, LENGTH_RANGE, MARGIN_RANGE, MAX_CLOSING_WORK,
     MAX_DROP_OFFS, MAX_GRASPS, MAX_ID_LENGTH, MAX_POINTS, POINT_RANGE, SceneLimits, TIP_HEIGHT_RANGE, YAW_RANGE,

@@ -7,6 +7,7 @@ use super::convex::{direction, turned};
 use super::footprint::Footprint;
 use super::grasps::{Grasps, ListedGrasp};
 use super::gripper::Gripper;
+use super::likely::Lack;
 
 /// The position of an object in its scene's list. The planner names objects only by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -70,8 +71,21 @@ impl Object {
     pub(super) fn flaw(&self, gripper: &Gripper) -> Option<Flaw> {
         let id = || self.id.clone();
         match (self.hindrance?, gripper.max_opening()) {
+            (Hindrance::TooWide(opening), Some(max_opening)) if self.grasps.listed().is_some() => {
+                Some(Flaw::NeedsOpening { id: id(), opening, max_opening })
+            }
             (Hindrance::TooWide(width), Some(max_opening)) => Some(Flaw::TooWide { id: id(), width, max_opening }),
-            _ => Some(Flaw::NoGrasp(id())),
+            _ => Some(Flaw::NoGrasp { id: id(), why: self.lack(gripper) }),
+        }
+    }
+
+    /// Why it has no grasp.
+    fn lack(&self, gripper: &Gripper) -> Lack {
+        let tip_height = gripper.tip_height();
+        match self.height.filter(|height| *height <= tip_height + SAME_HEIGHT) {
+            Some(height) => Lack::Low { height, tip_height },
+            None if self.grasps_stated() => Lack::EmptyList,
+            None => Lack::NotByShape(gripper.fingers()),
         }
     }
 

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Point2;
 
 use super::fault::{Findings, Place};
-use super::flaw::{Flaw, Likely};
+use super::flaw::Flaw;
+use super::likely::Likely;
 use super::slips;
 use super::{Footprint, FootprintIndex, Gripper, Object, ObjectIndex, Rectangle, SceneLimits};
 

@@ -9,7 +9,8 @@ use core::f64::consts::PI;
 use nalgebra::Point2;
 
 use super::fault::{Findings, Place};
-use super::flaw::{Flaw, Likely, Yardstick};
+use super::flaw::Flaw;
+use super::likely::{Likely, Yardstick};
 use super::{Footprint, Gripper, Object, Rectangle};
 
 /// The threshold of a length in largest radii, if it is also at least [`LONG`].
@@ -60,6 +61,14 @@ pub(super) fn slips(top: Rectangle, gripper: &Gripper, objects: &[Object], warni
         (Place::Gripper("margin"), gripper.margin, scale.margin(gripper.margin)),
         (Place::WholeTable, scale.shorter(), scale.table()),
     ];
+    let palm = gripper.palm.map(|palm| {
+        [("finger_length", palm.finger_length), ("palm_radius", palm.radius)]
+            .map(|(name, length)| (Place::Gripper(name), length, scale.high(length)))
+    });
+    let tips = (Place::Gripper("tip_height"), gripper.tip_height, scale.high(gripper.tip_height));
+    let heights = objects.iter().enumerate().filter_map(|(at, object)| Some((at, object.height?)));
+    let heights = heights.map(|(at, height)| (Place::Object(at, "height"), height, scale.high(height)));
+    let lengths = lengths.into_iter().chain(palm.into_iter().flatten()).chain([tips]).chain(heights);
     for (place, length, yardstick) in lengths {
         if let Some(yardstick) = yardstick {
             warnings.add(place, Flaw::OutOfProportion { length, yardstick });
@@ -105,6 +114,11 @@ impl Scale {
     /// is told of each.
     fn opening(&self, half: f64) -> Option<Yardstick> {
         self.too_long(half, FINGER_TO_RADIUS, FINGER_TO_TABLE * self.longer())
+    }
+
+    /// The length for which a height, a palm or the length of fingers is too long, if any. Bottles are high for their radius.
+    fn high(&self, length: f64) -> Option<Yardstick> {
+        (length > FINGER_TO_RADIUS * self.largest).then_some(Yardstick::LargestRadius(self.largest))
     }
 
     fn too_long(&self, length: f64, to_radius: f64, to_table: f64) -> Option<Yardstick> {

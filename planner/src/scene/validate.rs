@@ -252,7 +252,8 @@ impl Objects<'_> {
         };
         let shape = draft.shape.checked(at, self.faults, self.warnings);
         let grasps = self.gripper.zip(shape.as_ref()).and_then(|(gripper, shape)| {
-            Grasps::new(at, (&draft.shape, shape), draft.grasps.as_deref(), gripper, self.faults)
+            let (id, findings) = (draft.id.as_deref().unwrap_or_default(), (&mut *self.faults, &mut *self.warnings));
+            Grasps::new((at, id), (&draft.shape, shape), draft.grasps.as_deref(), gripper, findings)
         });
         let centre = Point2::new(x?, y?);
         if let Some(top) = self.table.map(|table| table.top).filter(|top| !top.contains(centre)) {

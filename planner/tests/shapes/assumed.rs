@@ -7,7 +7,7 @@ use singulate_planner::check::{FaultCode, Terms, check_on};
 use singulate_planner::geometry::shadow;
 use singulate_planner::plan::{Settings, plan};
 use singulate_planner::scene::{
-    Flaw, GoalDraft, GraspDraft, GripperDraft, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft,
+    Flaw, GoalDraft, GraspDraft, GripperDraft, Lack, ObjectDraft, ObjectIndex, RectangleDraft, Scene, SceneDraft,
     SceneLimits, ShapeDraft, TableDraft,
 };
 use singulate_planner::search::SILENT;
@@ -151,4 +151,23 @@ fn a_tolerance_takes_the_nearest_grasp_and_lets_the_hand_turn_as_planned() {
         })
     });
     assert!(codes(&seen, 0.0).contains(&FaultCode::WrongFrom));
+}
+
+#[test]
+fn what_looks_like_a_slip_is_doubted_and_what_is_lacking_is_named() {
+    let rectangle = ShapeDraft::Rectangle { length: Some(0.1), width: Some(0.06), corner_radius: None };
+    let grasp = |x: f64, yaw: f64| vec![GraspDraft { x: Some(x), yaw: Some(yaw), ..GraspDraft::default() }];
+    let of = |hand, grasps| flaws(draft(hand, vec![object("t", [0.0; 3], rectangle.clone(), grasps)]));
+    assert_eq!(of(jaws(), Some(grasp(0.05, 1.57))), []);
+    assert_eq!(of(jaws(), Some(grasp(0.4, 1.57))), [Flaw::AxisBesideObject("t".into())]);
+    assert_eq!(of(jaws(), Some(grasp(0.0, 90.0))), [Flaw::ManyTurns(90.0)]);
+    let three = GripperDraft { fingers: Some(3.0), ..jaws() };
+    let lack = |why| vec![Flaw::NoGrasp { id: "t".into(), why }];
+    assert_eq!(of(three, None), lack(Lack::NotByShape(3)));
+    assert_eq!(of(jaws(), Some(Vec::new())), lack(Lack::EmptyList));
+    let narrow = of(GripperDraft { max_opening: Some(0.05), ..jaws() }, Some(grasp(0.0, 0.0)));
+    assert!(matches!(narrow[..], [Flaw::NeedsOpening { max_opening: 0.05, .. }]), "{narrow:?}");
+    let millimetres = GripperDraft { finger_length: Some(100.0), palm_radius: Some(0.05), ..jaws() };
+    let found = of(millimetres, Some(grasp(0.0, 1.57)));
+    assert!(matches!(found[..], [Flaw::OutOfProportion { length: 100.0, .. }, Flaw::UnknownHeight(_)]), "{found:?}");
 }

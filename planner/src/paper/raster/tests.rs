@@ -152,7 +152,7 @@ impl GraspModel for OnlyAtHome {
         Shadow::Yaws(if at_home { ArcSet::fold(period, &[(-0.1, 1.0), (3.0, 3.1)]) } else { ArcSet::full(period) })
     }
 
-    fn options(&self, _: &Scene, _: ObjectIndex) -> Vec<Vec<ObjectIndex>> {
+    fn options(&self, _: &Scene, _: ObjectIndex, _: &Budget<'_>) -> Result<Vec<Vec<ObjectIndex>>, Interrupted> {
         unreachable!("nothing is searched")
     }
 }
