@@ -179,7 +179,8 @@ fn on_table(draft: &SceneDraft, own: &Footprint) -> bool {
 mod tests {
     use super::*;
     use crate::experiments::varied;
-    use singulate_planner::scene::{Goal, Grasps, Scene, SceneLimits};
+    use crate::experiments::wanting::tests::kind;
+    use singulate_planner::scene::{Grasps, Scene, SceneLimits};
 
     #[test]
     fn shapes_stand_apart_and_on_the_table() {
@@ -200,12 +201,7 @@ mod tests {
         for seed in 0..300 {
             let draft = mixed(&varied(seed), seed);
             let Ok((scene, _)) = Scene::new(draft, &SceneLimits::default()) else { continue };
-            goals[match scene.goal() {
-                Goal::Target(_) => 0,
-                Goal::AnyOf(_) => 1,
-                Goal::AllOf(_) => 2,
-                Goal::Clear => 3,
-            }] += 1;
+            goals[kind(scene.goal())] += 1;
             listed += scene.objects().iter().filter(|o| matches!(o.grasps(), Grasps::Listed(_))).count();
             palms += usize::from(scene.gripper().palm().is_some());
             tall += scene.objects().iter().filter(|object| object.height().is_some()).count();

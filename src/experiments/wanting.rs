@@ -77,22 +77,27 @@ fn pick(count: usize, random: &mut ChaCha8Rng) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::experiments::varied;
     use singulate_planner::scene::Goal;
+
+    /// A number for each kind of goal.
+    pub(in crate::experiments) fn kind(goal: &Goal) -> usize {
+        match goal {
+            Goal::Target(_) => 0,
+            Goal::AnyOf(_) => 1,
+            Goal::AllOf(_) => 2,
+            Goal::Clear => 3,
+        }
+    }
 
     #[test]
     fn scenes_are_of_every_kind() {
         let (mut goals, mut limited, mut choosy, mut wide, mut full) = ([0; 4], 0, 0, 0, 0);
         for seed in 0..500 {
             let (scene, _) = Scene::new(wanting(&varied(seed), seed), &SceneLimits::default()).unwrap();
-            goals[match scene.goal() {
-                Goal::Target(_) => 0,
-                Goal::AnyOf(_) => 1,
-                Goal::AllOf(_) => 2,
-                Goal::Clear => 3,
-            }] += 1;
+            goals[kind(scene.goal())] += 1;
             limited += usize::from(scene.drop_offs().iter().any(|drop_off| drop_off.capacity().is_some()));
             choosy += usize::from(scene.drop_offs().iter().any(|drop_off| drop_off.accepts().is_some()));
             wide += usize::from(scene.objects().iter().any(|object| !object.fixed() && !object.can_be_grasped()));

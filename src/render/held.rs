@@ -1,6 +1,6 @@
 //! Which of an object's grasps is stated, and how far the hand reaches in it.
 
-use singulate_planner::scene::{Footprint, Grasps, Gripper, ListedGrasp, Object, direction, turned};
+use singulate_planner::scene::{Footprint, Grasps, Gripper, ListedGrasp, Object};
 use singulate_planner::statement::StatedGrasp;
 
 /// Two places or yaws nearer than this are one, m and rad.
@@ -23,7 +23,7 @@ pub(super) fn listed<'a>(
     let Grasps::Listed(list) = object.grasps() else { return None };
     let (pose, axis) = (place.pose(), grasp.at.unwrap_or(place.at()));
     let is = |listed: &&ListedGrasp| {
-        let apart = pose.at + turned(listed.at(), direction(pose.yaw)) - axis;
+        let apart = pose.point(listed.at()) - axis;
         let turns = (pose.yaw + listed.yaw() - grasp.yaw) / gripper.period();
         apart.norm() < SAME && (turns - turns.round()).abs() < SAME
     };

@@ -143,7 +143,7 @@ fn places(scene: &Scene, step: &Move<'_>, again: bool, view: &View) -> Group {
     }
 }
 
-/// How far the step turns its object, in words; empty where it does not.
+/// By how much the step turns the object, as words for the title. Empty if the step does not turn it.
 fn turned(step: &Step) -> String {
     let turn = step.pick_place().and_then(|step| step.turn).and_then(super::turn);
     turn.map(|turn| format!(", turned by {turn}")).unwrap_or_default()

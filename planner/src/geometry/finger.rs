@@ -11,7 +11,7 @@
 
 /// The rectangle that an open finger sweeps: [`inner`, `outer`] × [−`half_width`, `half_width`], m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SweptRectangle {
+pub(super) struct SweptRectangle {
     /// Where the closed finger stands: r, the radius of a grasped disc.
     /// 0 where it meets nothing before the axis.
     pub inner: f64,
@@ -23,7 +23,7 @@ pub struct SweptRectangle {
 
 /// The offsets δ between finger and bearing, in [0, π], at which an obstacle blocks the finger.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BlockedOffsets {
+pub(super) enum BlockedOffsets {
     /// None: the obstacle is out of reach, or wholly inside the object.
     Clear,
     /// All: the obstacle covers the object's centre so far that no turn helps.
@@ -39,12 +39,12 @@ pub enum BlockedOffsets {
 
 impl SweptRectangle {
     /// From the gripper's axis to the outer corners, m.
-    pub fn corner_distance(&self) -> f64 {
+    pub(super) fn corner_distance(&self) -> f64 {
         (self.outer * self.outer + self.half_width * self.half_width).sqrt()
     }
 
     /// The offsets at which a disc whose centre is at `distance` d > 0 blocks, when it must stay `rho` ρ > 0 away (m).
-    pub fn blocked_offsets(&self, distance: f64, rho: f64) -> BlockedOffsets {
+    pub(super) fn blocked_offsets(&self, distance: f64, rho: f64) -> BlockedOffsets {
         let Self { inner: r, outer, half_width: h } = *self;
         if distance >= (outer * outer + h * h).sqrt() + rho || distance <= r - rho {
             BlockedOffsets::Clear

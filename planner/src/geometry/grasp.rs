@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::arcs::{ArcSet, wrap};
 use super::shadow::Shadow;
-use crate::scene::{Grasps, Gripper, ListedGrasp, Placed, direction, turned};
+use crate::scene::{Grasps, Gripper, ListedGrasp, Placed};
 
 /// A free yaw with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,11 +70,7 @@ fn feasible(list: &[ListedGrasp]) -> u64 {
 /// A listed grasp of an object that stands somewhere.
 pub fn listed(placed: Placed<'_>, grasp: &ListedGrasp) -> Grasp {
     let pose = placed.footprint.pose();
-    Grasp {
-        axis: pose.at + turned(grasp.at(), direction(pose.yaw)),
-        yaw: wrap(pose.yaw + grasp.yaw(), TAU),
-        slack: grasp.band(),
-    }
+    Grasp { axis: pose.point(grasp.at()), yaw: wrap(pose.yaw + grasp.yaw(), TAU), slack: grasp.band() }
 }
 
 /// Rounding of an interval's width, rad. An interval that is wide enough for the knowledge base must be wide enough
@@ -82,7 +78,7 @@ pub fn listed(placed: Placed<'_>, grasp: &ListedGrasp) -> Grasp {
 const ROUNDING: f64 = 1e-12;
 
 /// The middle of the widest free interval, if it is at least [`Gripper::min_free_width`] wide.
-pub fn widest_grasp(gripper: &Gripper, axis: Point2<f64>, blocked: &ArcSet) -> Option<Grasp> {
+fn widest_grasp(gripper: &Gripper, axis: Point2<f64>, blocked: &ArcSet) -> Option<Grasp> {
     let widest = blocked.widest_free()?;
     if blocked.is_empty() {
         return Some(Grasp { axis, yaw: 0.0, slack: widest.width / 2.0 });

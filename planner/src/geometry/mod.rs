@@ -9,6 +9,5 @@ mod shadow;
 mod turns;
 
 pub use arcs::{Arc, ArcSet, FreeInterval};
-pub use finger::{BlockedOffsets, SweptRectangle};
-pub use grasp::{Grasp, Hold, listed, widest_grasp};
+pub use grasp::{Grasp, Hold, listed};
 pub use shadow::{Shadow, shadow};

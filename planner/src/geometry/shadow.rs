@@ -115,7 +115,7 @@ impl Hindered<'_> {
     /// True if a listed grasp is blocked at some yaw of its band.
     fn blocks(&self, grasp: &ListedGrasp) -> bool {
         let pose = self.grasped.pose();
-        let axis = pose.at + turned(grasp.at(), direction(pose.yaw));
+        let axis = pose.point(grasp.at());
         if self.meets_palm(axis) {
             return true;
         }

@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use smallvec::SmallVec;
 
 use super::finger::{BlockedOffsets, SweptRectangle};
-use crate::scene::{Core, direction};
+use crate::scene::{Core, direction, length};
 
 type Turns = SmallVec<[f64; 24]>;
 
@@ -131,6 +131,38 @@ fn edge_cuts(start: Vector2<f64>, end: Vector2<f64>, rho: f64, corners: [(f64, f
     }
 }
 
-fn length(v: Vector2<f64>) -> f64 {
-    (v.x * v.x + v.y * v.y).sqrt()
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3000))]
+
+        #[test]
+        fn a_band_is_met_exactly_when_some_turn_of_it_is(
+            points in proptest::collection::vec((-0.2..0.2_f64, -0.2..0.2_f64), 3..9),
+            (away, bearing) in (0.0..0.5_f64, 0.0..TAU), band in 0.0..1.5_f64,
+            (inner, clearance, half_width) in (0.0..0.1_f64, 0.005..0.1_f64, 0.002..0.05_f64),
+        ) {
+            let points: Vec<Vector2<f64>> = points.into_iter().map(|(x, y)| Vector2::new(x, y)).collect();
+            let Some(core) = Core::hull(&points) else { return Ok(()) };
+            let core = core.moved(Vector2::new(away * libm::cos(bearing), away * libm::sin(bearing)));
+            let finger = SweptRectangle { inner, outer: inner + clearance, half_width };
+            let [min, max] = sides(&finger);
+            let samples = 400;
+            let room = |sample: u32| {
+                let turn = band * (2.0 * f64::from(sample) / f64::from(samples) - 1.0);
+                core.turned(direction(-turn)).distance_to_box(min, max)
+            };
+            let least = (0..=samples).map(room).fold(f64::INFINITY, f64::min);
+            // Between two samples no point of the finger moves farther than this.
+            let coarse = finger.corner_distance() * band / f64::from(samples);
+            let met = |rho: f64| meets_within(&finger, Some(&core), Vector2::zeros(), rho, band);
+            // Just nearer than allowed at one turn, and nowhere.
+            prop_assert!(met(least.max(0.0) + 1e-7), "{least}");
+            prop_assert!(least < coarse || !met(least - coarse), "{least} {coarse}");
+        }
+    }
 }

@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::Vector2;
 use smallvec::SmallVec;
 
-use super::convex::{direction, turned};
+use super::convex::{direction, length, turned};
 use super::shape::Shape;
 
 /// A finger with the core of the object as the finger sees it: the gripper's axis at the origin, the finger along +x.
@@ -70,7 +70,7 @@ impl ClosingFinger {
     /// Where the grown edge between two vertices passes the strip's border.
     fn edge_at(&self, start: Vector2<f64>, end: Vector2<f64>, border: f64) -> Option<f64> {
         let along = end - start;
-        let length = (along.x * along.x + along.y * along.y).sqrt();
+        let length = length(along);
         // The outward normal of an edge on the far side points along the finger.
         if along.y <= 0.0 {
             return None;
@@ -86,7 +86,7 @@ impl ClosingFinger {
         for (at, &v) in self.vertices.iter().enumerate() {
             self.point(v, band, turns);
             let along = self.vertices[(at + 1) % self.vertices.len()] - v;
-            let length = (along.x * along.x + along.y * along.y).sqrt();
+            let length = length(along);
             if length > 0.0 {
                 let normal = Vector2::new(along.y, -along.x) / length;
                 self.edge(normal, normal.dot(&v) + self.radius, band, turns);
@@ -99,7 +99,7 @@ impl ClosingFinger {
 
     /// Where a vertex lines up with the axis, or it or its arc crosses the strip's border.
     fn point(&self, v: Vector2<f64>, band: f64, turns: &mut SmallVec<[f64; 16]>) {
-        let away = (v.x * v.x + v.y * v.y).sqrt();
+        let away = length(v);
         if v.y.abs() <= away * band {
             // Before the axis or behind it.
             turns.push(libm::atan2(v.y * v.x.signum(), v.x.abs()));
@@ -115,7 +115,7 @@ impl ClosingFinger {
     }
 
     fn crossings(&self, point: Vector2<f64>, band: f64, turns: &mut SmallVec<[f64; 16]>) {
-        let away = (point.x * point.x + point.y * point.y).sqrt();
+        let away = length(point);
         levels(point, away, self.half, band, turns);
     }
 

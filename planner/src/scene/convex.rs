@@ -259,7 +259,7 @@ pub(super) fn shoelace(points: &[Vector2<f64>]) -> f64 {
 }
 
 /// √(x²+y²), the same on every machine.
-fn length(v: Vector2<f64>) -> f64 {
+pub fn length(v: Vector2<f64>) -> f64 {
     (v.x * v.x + v.y * v.y).sqrt()
 }
 

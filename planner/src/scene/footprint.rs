@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Point2, Vector2};
 
-use super::convex::{Core, direction};
+use super::convex::{Core, direction, turned};
 use super::shape::Shape;
 use super::table::Rectangle;
 
@@ -29,6 +29,13 @@ pub struct Footprint {
 impl From<Point2<f64>> for Pose {
     fn from(at: Point2<f64>) -> Self {
         Self { at, yaw: 0.0 }
+    }
+}
+
+impl Pose {
+    /// Where a point of the frame is on the table, m.
+    pub fn point(&self, own: Vector2<f64>) -> Point2<f64> {
+        self.at + turned(own, direction(self.yaw))
     }
 }
 

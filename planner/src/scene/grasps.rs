@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use smallvec::SmallVec;
 
 use super::closing::ClosingFinger;
-use super::convex::Core;
+use super::convex::{Core, length};
 use super::fault::{Findings, Place};
 use super::flaw::Flaw;
 use super::gripper::{Gripper, Opening};
@@ -162,7 +162,7 @@ impl ListedGrasp {
 
     /// From the origin of the object's frame to the axis, m.
     pub fn offset(&self) -> f64 {
-        (self.at.x * self.at.x + self.at.y * self.at.y).sqrt()
+        length(self.at)
     }
 
     /// True if the object is not too wide for the hand in this way.

@@ -30,7 +30,7 @@ mod wanted;
 
 use std::sync::Arc;
 
-pub use convex::{Axis, Core, direction, turned};
+pub use convex::{Axis, Core, direction, length, turned};
 pub use draft::{GripperDraft, ObjectDraft, RectangleDraft, SceneDraft, TableDraft};
 pub use drop_off::{Destination, DropOff, DropOffDraft};
 pub use fault::{Finding, MAX_FINDINGS, Place};

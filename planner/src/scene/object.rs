@@ -3,7 +3,6 @@
 use super::flaw::Flaw;
 use nalgebra::Point2;
 
-use super::convex::{direction, turned};
 use super::footprint::Footprint;
 use super::grasps::{Grasps, ListedGrasp};
 use super::gripper::Gripper;
@@ -183,10 +182,8 @@ impl Object {
         let (pose, palm) = (self.footprint.pose(), gripper.palm().map_or(0.0, |palm| palm.radius));
         let every_yaw = self.grasps.listed().is_none().then(|| (pose.at, self.reach(gripper)));
         let fitting = self.grasps.listed().unwrap_or_default().iter().filter(|grasp| grasp.fits());
-        let listed = fitting.map(move |grasp| {
-            let axis = pose.at + turned(grasp.at(), direction(pose.yaw));
-            (axis, grasp.corner_distance().max(palm) + gripper.margin())
-        });
+        let listed =
+            fitting.map(move |grasp| (pose.point(grasp.at()), grasp.corner_distance().max(palm) + gripper.margin()));
         every_yaw.into_iter().chain(listed)
     }
 

@@ -45,7 +45,7 @@ fn moved(scene: &Scene, to: Pose, grasp: usize) -> Statement {
     let object = &scene.objects()[1];
     let held = object.grasps().listed().unwrap()[grasp].clone();
     let grasp = |pose: Pose| {
-        let at = pose.at + singulate_planner::scene::turned(held.at(), singulate_planner::scene::direction(pose.yaw));
+        let at = pose.point(held.at());
         StatedGrasp { at: Some(at), yaw: pose.yaw + held.yaw(), slack: Some(0.05) }
     };
     let from = object.footprint().pose();
