@@ -8,7 +8,7 @@ use super::layout::Layout;
 use crate::scene::{Core, Footprint, Gripper, ListedGrasp, ObjectIndex, distance};
 
 /// The most orientations that are tried.
-const MOST: usize = 16;
+const MOST: usize = 24;
 /// Two orientations nearer than this are one, rad.
 const SAME: f64 = 1e-9;
 /// The neighbours along whose edges an object is laid.
@@ -31,12 +31,14 @@ pub(super) fn orientations(layout: &Layout<'_>, object: ObjectIndex) -> Vec<f64>
             let quarters = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
             quarters.iter().for_each(|quarter| yaws.add(yaw + nearest - side + quarter));
             quarters.iter().for_each(|quarter| yaws.add(yaw + quarter));
-            for edge in edges_nearby(layout, object, stands) {
+            let nearby = edges_nearby(layout, object, stands);
+            for edge in &nearby {
                 quarters.iter().for_each(|quarter| yaws.add(yaw + edge - side + quarter));
             }
-            // The hand needs room along its fingers: with those along the table's axes it needs least.
+            // A release needs room along the fingers: there is most of it along the table's axes, or between edges nearby.
             for grasp in list {
-                quarters.iter().for_each(|quarter| yaws.add(quarter - grasp.yaw()));
+                let along = [0.0].iter().chain(&nearby);
+                along.for_each(|edge| quarters.iter().for_each(|quarter| yaws.add(edge + quarter - grasp.yaw())));
             }
         }
     }
@@ -103,6 +105,7 @@ mod tests {
     use super::*;
     use crate::knowledge::SweptFinger;
     use crate::scene::scenes::TestScene;
+    use crate::scene::{GraspDraft, ObjectDraft, ShapeDraft};
 
     #[test]
     fn a_box_is_turned_along_the_table_and_along_its_neighbour() {
@@ -119,5 +122,30 @@ mod tests {
         let same = |a: f64, b: f64| ((a - b) / PI - ((a - b) / PI).round()).abs() < 1e-9;
         assert!(found.len() == 6 && found.iter().zip(expected).all(|(a, b)| same(*a, b)), "{found:?}");
         assert_eq!(yaws("cup"), [0.0]);
+    }
+
+    #[test]
+    fn fingers_are_laid_along_the_table_and_along_a_neighbour() {
+        let grasp = GraspDraft { yaw: Some(0.4), ..GraspDraft::default() };
+        let (length, width) = (Some(0.2), Some(0.1));
+        let slanted = ObjectDraft {
+            id: Some("box".into()),
+            x: Some(0.5),
+            y: Some(0.5),
+            shape: ShapeDraft::Rectangle { length, width, corner_radius: None },
+            grasps: Some(vec![grasp]),
+            ..ObjectDraft::default()
+        };
+        let scene = TestScene::new(2)
+            .object(slanted)
+            .rectangle("other", [1.0, 0.5, -0.5], [0.1, 0.2])
+            .disc("cup", 1.5, 1.5, 0.05)
+            .build("cup");
+        let found = orientations(&Layout::new(&scene, &SweptFinger), scene.find("box").unwrap());
+        // The finger is 0.4 rad ahead of the frame.
+        for along in [0.0, FRAC_PI_2, -0.5, FRAC_PI_2 - 0.5] {
+            let turned = |yaw: &f64| ((yaw + 0.4 - along) / PI - ((yaw + 0.4 - along) / PI).round()).abs() < 1e-9;
+            assert!(found.iter().any(turned), "{along} {found:?}");
+        }
     }
 }
